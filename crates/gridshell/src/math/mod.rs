@@ -1,0 +1,6 @@
+//! Small mathematics: transcendental functions that give the same bits on every machine.
+//!
+//! `+ - * / sqrt` are exact by IEEE 754; everything else goes through `libm` here, so that the same
+//! seed gives the same grid everywhere.
+
+pub mod trig;

@@ -1,0 +1,4 @@
+//! The stages of the method, one file (or folder) each. They never see one another: the pipeline alone
+//! knows their order.
+
+pub mod measure;

@@ -1,0 +1,55 @@
+//! The trimmed model as CAD files have it: faces over exact shapes, bounded by shared edges.
+
+use super::curve::Curve;
+use super::shape::Shape;
+use glam::DVec3;
+
+/// A boundary representation in metres: what the CAD readers and the built-in surfaces make, and what
+/// [`tessellate`](super::tessellate) turns into a [`Surface`](super::Surface).
+#[derive(Clone, Debug, Default)]
+pub struct Brep {
+    /// Built-in name or file stem.
+    pub name: String,
+    /// Length of the file's unit in metres (0.001 for millimetres).
+    pub unit_in_metres: f64,
+    /// Vertex positions.
+    pub vertices: Vec<DVec3>,
+    /// Edges, each once, however many faces share it.
+    pub edges: Vec<BrepEdge>,
+    /// Trimmed faces.
+    pub faces: Vec<BrepFace>,
+    /// What was skipped or repaired while reading, for the user.
+    pub notes: Vec<String>,
+}
+
+/// One edge: a piece of a curve between two vertices (the same one twice when closed).
+#[derive(Clone, Debug)]
+pub struct BrepEdge {
+    /// Exact geometry.
+    pub curve: Curve,
+    /// Parameters of the edge's start and end; start < end.
+    pub range: [f64; 2],
+    /// Start and end vertex.
+    pub ends: [u32; 2],
+}
+
+/// One face: a shape trimmed by loops.
+#[derive(Clone, Debug)]
+pub struct BrepFace {
+    /// Exact geometry.
+    pub shape: Shape,
+    /// Loops of edges; empty for a face that covers its whole shape. Seen from the face's outside, the
+    /// surface lies to the left of every loop.
+    pub loops: Vec<Vec<Coedge>>,
+    /// The face's outside is against `du x dv`.
+    pub reversed: bool,
+}
+
+/// The use of an edge by a loop.
+#[derive(Clone, Copy, Debug)]
+pub struct Coedge {
+    /// Index of the edge.
+    pub edge: u32,
+    /// Run from the edge's end to its start.
+    pub reversed: bool,
+}
