@@ -2,3 +2,6 @@
 //! knows their order.
 
 pub mod measure;
+pub mod pack;
+pub mod relax;
+pub mod triangulate;
