@@ -3,5 +3,6 @@
 
 pub mod measure;
 pub mod pack;
+pub mod regularize;
 pub mod relax;
 pub mod triangulate;
