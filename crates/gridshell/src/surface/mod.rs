@@ -7,6 +7,7 @@
 pub mod brep;
 pub mod carrier;
 pub mod chain;
+pub mod chart;
 pub mod curve;
 pub mod model;
 pub mod nurbs;

@@ -5,6 +5,7 @@
 
 pub mod boundary;
 mod dynamics;
+pub mod lattice;
 mod random;
 
 pub use dynamics::{Report, settle};
