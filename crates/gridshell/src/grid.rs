@@ -1,7 +1,8 @@
 //! The triangular grid on a surface: topology, and where each node sits.
 
+use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::surface::{ChainPoint, Surface, SurfacePoint};
+use crate::surface::{ChainPoint, Locator, Surface, SurfacePoint};
 use glam::DVec3;
 
 /// Where a node sits on the surface.
@@ -26,12 +27,59 @@ pub struct Grid {
     pub xyz: Vec<DVec3>,
 }
 
+impl Grid {
+    /// The grid of these nodes and panels (counter-clockwise seen from outside), each node with the place
+    /// of `surface` nearest to it; positions stay as they are.
+    ///
+    /// # Errors
+    /// [`Error::Surface`] when the panels are not a manifold, or the grid has a boundary and the surface
+    /// has none.
+    pub fn from_panels(xyz: Vec<DVec3>, panels: &[[u32; 3]], surface: &Surface) -> Result<Grid> {
+        let mesh = Mesh::from_triangles(xyz.len(), panels)?;
+        let locator = Locator::new(surface);
+        let place = |(v, &x): (usize, &DVec3)| {
+            if mesh.is_boundary(v as u32) {
+                locator.nearest_on_loops(x).map(Place::Boundary)
+            } else {
+                locator.nearest(x).map(Place::Interior)
+            }
+        };
+        let places =
+            xyz.iter().enumerate().map(place).collect::<Option<Vec<_>>>().ok_or_else(|| {
+                Error::Surface(
+                    "the grid has a boundary but the surface has none: is it the right surface?"
+                        .into(),
+                )
+            })?;
+        Ok(Grid { mesh, places, xyz })
+    }
+
+    /// A grid that is its own surface: what can be measured when the design surface is not known.
+    ///
+    /// # Errors
+    /// [`Error::Surface`] when the panels are not a manifold.
+    pub fn alone(name: &str, xyz: Vec<DVec3>, panels: &[[u32; 3]]) -> Result<(Grid, Surface)> {
+        // Checked before the surface is made, which trusts its triangles.
+        Mesh::from_triangles(xyz.len(), panels)?;
+        let surface = Surface::from_facets(name, xyz.clone(), panels.to_vec());
+        let grid = Grid::from_panels(xyz, panels, &surface)?;
+        Ok((grid, surface))
+    }
+}
+
 impl Place {
+    /// Whether it lies on a boundary loop.
+    pub fn is_boundary(&self) -> bool {
+        !matches!(self, Place::Interior(_))
+    }
+
     /// The carrier point of this place.
     pub fn surface_point(&self, surface: &Surface) -> SurfacePoint {
         match self {
             Place::Interior(p) => *p,
-            Place::Boundary(c) | Place::Corner(c) => surface.loops[c.chain as usize].surface_point(c.s),
+            Place::Boundary(c) | Place::Corner(c) => {
+                surface.loops[c.chain as usize].surface_point(c.s)
+            }
         }
     }
 
@@ -39,7 +87,9 @@ impl Place {
     pub fn exact(&self, surface: &Surface) -> DVec3 {
         match self {
             Place::Interior(p) => surface.exact(p),
-            Place::Boundary(c) | Place::Corner(c) => surface.loops[c.chain as usize].exact(surface, c.s),
+            Place::Boundary(c) | Place::Corner(c) => {
+                surface.loops[c.chain as usize].exact(surface, c.s)
+            }
         }
     }
 

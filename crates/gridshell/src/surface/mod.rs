@@ -8,6 +8,8 @@ pub mod brep;
 pub mod carrier;
 pub mod chain;
 pub mod curve;
+pub mod facets;
+pub mod locate;
 pub mod model;
 pub mod nurbs;
 pub mod shape;
@@ -16,6 +18,7 @@ pub use brep::Brep;
 pub use carrier::{Carrier, SurfacePoint};
 pub use chain::{Chain, ChainPoint};
 pub use curve::Curve;
+pub use locate::Locator;
 pub use model::{Model, PolygonMesh, Sampling};
 pub use shape::Shape;
 
