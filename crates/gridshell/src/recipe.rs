@@ -182,10 +182,7 @@ impl Recipe {
     /// The names that [`Recipe::named`] knows, with a line on each.
     pub const METHODS: [(&'static str, &'static str); 2] = [
         ("default", "lattice start, annealed edge operations, fluent relaxation"),
-        (
-            "paper",
-            "the method as Wang et al. print it: random bubbles, Algorithm 1, net-like relaxation",
-        ),
+        ("paper", "the method as Wang et al. print it: random bubbles, Algorithm 1, net-like relaxation"),
     ];
 
     /// A recipe by its method name.
@@ -203,10 +200,7 @@ impl Recipe {
             }
             _ => {
                 let names: Vec<_> = Self::METHODS.iter().map(|m| m.0).collect();
-                return Err(Error::Option(format!(
-                    "no method {method:?}; there are: {}",
-                    names.join(", ")
-                )));
+                return Err(Error::Option(format!("no method {method:?}; there are: {}", names.join(", "))));
             }
         }
         Ok(recipe)
