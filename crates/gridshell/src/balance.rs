@@ -101,8 +101,9 @@ impl System {
         let mesh = &grid.mesh;
         let edges: Vec<(u32, u32)> = mesh.edges().collect();
         let regular = mesh.vertices().filter(|&v| !mesh.is_boundary(v) && mesh.degree(v) == 6);
-        let lines: Vec<Line> =
-            regular.flat_map(|v| (0..3).map(move |j| [v, mesh.ring(v)[j], mesh.ring(v)[j + 3]])).collect();
+        let lines: Vec<Line> = regular
+            .flat_map(|v| (0..3).map(move |j| [v, mesh.ring(v)[j], mesh.ring(v)[j + 3]]))
+            .collect();
         let mut diagonal = vec![DAMPING; mesh.slots()];
         for &(a, b) in &edges {
             diagonal[a as usize] += 0.5;
@@ -113,7 +114,15 @@ impl System {
             diagonal[j as usize] += straightness;
             diagonal[k as usize] += straightness;
         }
-        System { edges, lines, straightness, mean: 0.0, directions: Vec::new(), freedom: Vec::new(), diagonal }
+        System {
+            edges,
+            lines,
+            straightness,
+            mean: 0.0,
+            directions: Vec::new(),
+            freedom: Vec::new(),
+            diagonal,
+        }
     }
 
     /// Linearise at the grid's positions and solve for the move of every node.
@@ -174,8 +183,9 @@ impl System {
         let dot = |a: &[DVec3], b: &[DVec3]| a.iter().zip(b).map(|(x, y)| x.dot(*y)).sum::<f64>();
         let mut x = vec![DVec3::ZERO; right.len()];
         let mut r = right.to_vec();
-        let precondition =
-            |r: &[DVec3]| -> Vec<DVec3> { r.iter().zip(&self.diagonal).map(|(v, d)| *v / *d).collect() };
+        let precondition = |r: &[DVec3]| -> Vec<DVec3> {
+            r.iter().zip(&self.diagonal).map(|(v, d)| *v / *d).collect()
+        };
         let mut z = precondition(&r);
         let mut p = z.clone();
         let mut rz = dot(&r, &z);
@@ -205,7 +215,9 @@ impl System {
 fn freedom(surface: &Surface, grid: &Grid, i: usize) -> Freedom {
     match &grid.places[i] {
         Place::Interior(p) => Freedom::Plane(surface.carrier.normal(p)),
-        Place::Boundary(c) => Freedom::Line(surface.loops[c.chain as usize].tangent(&surface.carrier, c.s)),
+        Place::Boundary(c) => {
+            Freedom::Line(surface.loops[c.chain as usize].tangent(&surface.carrier, c.s))
+        }
         Place::Corner(_) => Freedom::None,
     }
 }

@@ -1,7 +1,8 @@
 //! The triangular grid on a surface: topology, and where each node sits.
 
+use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::surface::{ChainPoint, Surface, SurfacePoint};
+use crate::surface::{ChainPoint, Locator, Surface, SurfacePoint};
 use glam::DVec3;
 
 /// Where a node sits on the surface.
@@ -72,7 +73,8 @@ impl Grid {
                 let chain = &surface.loops[c.chain as usize];
                 let along = step.dot(chain.tangent(&surface.carrier, c.s));
                 let at = *c;
-                let along = along.clamp(-self.room(surface, i, at, false), self.room(surface, i, at, true));
+                let along =
+                    along.clamp(-self.room(surface, i, at, false), self.room(surface, i, at, true));
                 let s = chain.wrap(at.s + along);
                 self.places[i] = Place::Boundary(ChainPoint { s, ..at });
                 self.xyz[i] = chain.xyz(&surface.carrier, s);
@@ -87,16 +89,62 @@ impl Grid {
     fn room(&self, surface: &Surface, i: usize, at: ChainPoint, forward: bool) -> f64 {
         const SHARE: f64 = 0.4;
         let v = i as u32;
-        let next = if forward { self.mesh.next_on_boundary(v) } else { self.mesh.previous_on_boundary(v) };
-        let Some(Place::Boundary(other) | Place::Corner(other)) = next.map(|n| self.places[n as usize]) else {
+        let next =
+            if forward { self.mesh.next_on_boundary(v) } else { self.mesh.previous_on_boundary(v) };
+        let Some(Place::Boundary(other) | Place::Corner(other)) =
+            next.map(|n| self.places[n as usize])
+        else {
             return 0.0;
         };
         let gap = if forward { other.s - at.s } else { at.s - other.s };
         SHARE * surface.loops[at.chain as usize].wrap(gap)
     }
+
+    /// The grid of these nodes and panels (counter-clockwise seen from outside), each node with the place
+    /// of `surface` nearest to it; positions stay as they are.
+    ///
+    /// # Errors
+    /// [`Error::Surface`] when the panels are not a manifold, or the grid has a boundary and the surface
+    /// has none.
+    pub fn from_panels(xyz: Vec<DVec3>, panels: &[[u32; 3]], surface: &Surface) -> Result<Grid> {
+        let mesh = Mesh::from_triangles(xyz.len(), panels)?;
+        let locator = Locator::new(surface);
+        let place = |(v, &x): (usize, &DVec3)| {
+            if mesh.is_boundary(v as u32) {
+                locator.nearest_on_loops(x).map(Place::Boundary)
+            } else {
+                locator.nearest(x).map(Place::Interior)
+            }
+        };
+        let places =
+            xyz.iter().enumerate().map(place).collect::<Option<Vec<_>>>().ok_or_else(|| {
+                Error::Surface(
+                    "the grid has a boundary but the surface has none: is it the right surface?"
+                        .into(),
+                )
+            })?;
+        Ok(Grid { mesh, places, xyz })
+    }
+
+    /// A grid that is its own surface: what can be measured when the design surface is not known.
+    ///
+    /// # Errors
+    /// [`Error::Surface`] when the panels are not a manifold.
+    pub fn alone(name: &str, xyz: Vec<DVec3>, panels: &[[u32; 3]]) -> Result<(Grid, Surface)> {
+        // Checked before the surface is made, which trusts its triangles.
+        Mesh::from_triangles(xyz.len(), panels)?;
+        let surface = Surface::from_facets(name, xyz.clone(), panels.to_vec());
+        let grid = Grid::from_panels(xyz, panels, &surface)?;
+        Ok((grid, surface))
+    }
 }
 
 impl Place {
+    /// Whether it lies on a boundary loop.
+    pub fn is_boundary(&self) -> bool {
+        !matches!(self, Place::Interior(_))
+    }
+
     /// The carrier point of this place.
     pub fn surface_point(&self, surface: &Surface) -> SurfacePoint {
         match self {

@@ -3,6 +3,7 @@
 
 pub mod balance;
 pub mod bubbles;
+pub mod degree;
 pub mod error;
 pub mod grid;
 pub mod job;

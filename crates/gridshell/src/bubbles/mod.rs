@@ -27,7 +27,8 @@ impl Bubbles {
 
     /// Carrier points of all bubbles, boundary first.
     pub fn surface_points(&self, surface: &Surface) -> Vec<SurfacePoint> {
-        let on_loops = self.boundary.iter().map(|c| surface.loops[c.chain as usize].surface_point(c.s));
+        let on_loops =
+            self.boundary.iter().map(|c| surface.loops[c.chain as usize].surface_point(c.s));
         on_loops.chain(self.interior.iter().copied()).collect()
     }
 

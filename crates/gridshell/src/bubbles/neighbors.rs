@@ -6,7 +6,12 @@ use rayon::prelude::*;
 
 /// Neighbours of each point within `radius`, in ascending order. A neighbour counts only if walking along
 /// the chord on the carrier arrives at it, so the other sheet of a fold is no neighbour however near.
-pub fn neighbors(carrier: &Carrier, points: &[SurfacePoint], xyz: &[DVec3], radius: f64) -> Vec<Vec<u32>> {
+pub fn neighbors(
+    carrier: &Carrier,
+    points: &[SurfacePoint],
+    xyz: &[DVec3],
+    radius: f64,
+) -> Vec<Vec<u32>> {
     let cells = Cells::new(xyz, radius);
     (0..points.len())
         .into_par_iter()
@@ -42,7 +47,8 @@ struct Cells {
 
 impl Cells {
     fn new(xyz: &[DVec3], size: f64) -> Cells {
-        let mut members: Vec<_> = xyz.iter().enumerate().map(|(i, &p)| (cube(p, size), i as u32)).collect();
+        let mut members: Vec<_> =
+            xyz.iter().enumerate().map(|(i, &p)| (cube(p, size), i as u32)).collect();
         members.sort_unstable();
         Cells { size, members }
     }

@@ -106,7 +106,8 @@ fn exponential_map(carrier: &Carrier) -> Option<Vec<DVec2>> {
         for v in ready.drain(..) {
             for &t in &around[v as usize] {
                 let corners = carrier.triangles[t as usize];
-                let missing: Vec<u32> = corners.into_iter().filter(|&w| uv[w as usize].is_none()).collect();
+                let missing: Vec<u32> =
+                    corners.into_iter().filter(|&w| uv[w as usize].is_none()).collect();
                 if let [w] = missing[..] {
                     heap.push(Reverse((Distance(distance[w as usize]), w)));
                 }
@@ -116,7 +117,8 @@ fn exponential_map(carrier: &Carrier) -> Option<Vec<DVec2>> {
         if uv[v as usize].is_some() {
             continue;
         }
-        let laid: Vec<DVec2> = around[v as usize].iter().filter_map(|&t| apex(carrier, t, v, &uv)).collect();
+        let laid: Vec<DVec2> =
+            around[v as usize].iter().filter_map(|&t| apex(carrier, t, v, &uv)).collect();
         uv[v as usize] = Some(laid.iter().sum::<DVec2>() / laid.len() as f64);
         ready.push(v);
     }
@@ -157,7 +159,8 @@ fn as_rigid_as_possible(carrier: &Carrier, mut uv: Vec<DVec2>) -> Vec<DVec2> {
                 sum += DMat2::from_cols(d * e.x, d * e.y) * w;
             }
             // The rotation nearest to the sum of d e^T.
-            let turn = DVec2::new(sum.x_axis.x + sum.y_axis.y, sum.x_axis.y - sum.y_axis.x).normalize_or(DVec2::X);
+            let turn = DVec2::new(sum.x_axis.x + sum.y_axis.y, sum.x_axis.y - sum.y_axis.x)
+                .normalize_or(DVec2::X);
             for k in 0..3 {
                 let (e, w) = edges[k];
                 let f = turn.rotate(e) * w;
@@ -182,7 +185,8 @@ impl Rigid {
                 let y = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero().cross(x);
                 [0, 1, 2].map(|k| {
                     let (a, b, c) = (p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
-                    let cot = (a - c).dot(b - c) / (a - c).cross(b - c).length().max(f64::MIN_POSITIVE);
+                    let cot =
+                        (a - c).dot(b - c) / (a - c).cross(b - c).length().max(f64::MIN_POSITIVE);
                     let w = (0.5 * cot).clamp(LEAST_WEIGHT, 1.0 / LEAST_WEIGHT);
                     let (i, j) = (corners[k], corners[(k + 1) % 3]);
                     entries.extend([(i, j, w), (j, i, w)]);
@@ -216,7 +220,9 @@ impl Rigid {
         let dot = |a: &[DVec2], b: &[DVec2]| a.iter().zip(b).map(|(p, q)| p.dot(*q)).sum::<f64>();
         let ax = self.apply(x);
         let mut r: Vec<DVec2> = right.iter().zip(&ax).map(|(b, a)| *b - *a).collect();
-        let scaled = |r: &[DVec2]| -> Vec<DVec2> { r.iter().zip(&self.diagonal).map(|(v, d)| *v / *d).collect() };
+        let scaled = |r: &[DVec2]| -> Vec<DVec2> {
+            r.iter().zip(&self.diagonal).map(|(v, d)| *v / *d).collect()
+        };
         let mut z = scaled(&r);
         let mut p = z.clone();
         let mut rz = dot(&r, &z);

@@ -9,6 +9,8 @@ pub mod carrier;
 pub mod chain;
 pub mod chart;
 pub mod curve;
+pub mod facets;
+pub mod locate;
 pub mod model;
 pub mod nurbs;
 pub mod shape;
@@ -17,6 +19,7 @@ pub use brep::Brep;
 pub use carrier::{Carrier, SurfacePoint};
 pub use chain::{Chain, ChainPoint};
 pub use curve::Curve;
+pub use locate::Locator;
 pub use model::{Model, PolygonMesh, Sampling};
 pub use shape::Shape;
 

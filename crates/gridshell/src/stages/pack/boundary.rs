@@ -40,7 +40,12 @@ pub fn member_count(piece: &Piece, edge_length: f64) -> usize {
 
 /// Bubbles at equal distances: `counts[i]` members on piece i. A piece without corners starts at
 /// `offset` (a share of a member, 0 to 1) past its loop's first vertex.
-pub fn place(surface: &Surface, pieces: &[Piece], counts: &[usize], offset: f64) -> Vec<ChainPoint> {
+pub fn place(
+    surface: &Surface,
+    pieces: &[Piece],
+    counts: &[usize],
+    offset: f64,
+) -> Vec<ChainPoint> {
     let mut points = Vec::new();
     for (piece, &count) in pieces.iter().zip(counts) {
         let chain = &surface.loops[piece.chain as usize];

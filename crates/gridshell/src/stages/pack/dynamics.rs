@@ -36,9 +36,16 @@ const SKIN: f64 = 0.4;
 /// Let the interior bubbles move until the largest move in a step is below `options.settled` l0.
 ///
 /// The mass follows from Eq. 10, the step from the stiffest mode (six neighbours and the surface).
-pub fn settle(surface: &Surface, bubbles: &mut Bubbles, edge_length: f64, options: &Pack, job: &Job) -> Report {
+pub fn settle(
+    surface: &Surface,
+    bubbles: &mut Bubbles,
+    edge_length: f64,
+    options: &Pack,
+    job: &Job,
+) -> Report {
     let carrier = &surface.carrier;
-    let fixed: Vec<SurfacePoint> = bubbles.surface_points(surface)[..bubbles.boundary.len()].to_vec();
+    let fixed: Vec<SurfacePoint> =
+        bubbles.surface_points(surface)[..bubbles.boundary.len()].to_vec();
     let mut bodies: Vec<Body> = bubbles
         .interior
         .iter()
@@ -51,7 +58,8 @@ pub fn settle(surface: &Surface, bubbles: &mut Bubbles, edge_length: f64, option
     let mut lists: Vec<Vec<u32>> = Vec::new();
     let mut listed_at: Vec<DVec3> = Vec::new();
     while !report.converged && report.steps < options.max_steps && !job.stopped() {
-        let feet: Vec<SurfacePoint> = fixed.iter().copied().chain(bodies.iter().map(|b| b.foot)).collect();
+        let feet: Vec<SurfacePoint> =
+            fixed.iter().copied().chain(bodies.iter().map(|b| b.foot)).collect();
         let xyz: Vec<DVec3> = feet.iter().map(|p| carrier.xyz(p)).collect();
         let strayed = |(p, q): (&DVec3, &DVec3)| p.distance(*q) > 0.5 * SKIN * edge_length;
         if listed_at.is_empty() || xyz.iter().zip(&listed_at).any(strayed) {
@@ -60,14 +68,19 @@ pub fn settle(surface: &Surface, bubbles: &mut Bubbles, edge_length: f64, option
         }
         bodies.par_iter_mut().enumerate().for_each(|(i, body)| {
             let i = fixed.len() + i;
-            let push = lists[i].iter().map(|&j| repulsion(xyz[i], xyz[j as usize], diameter, i)).sum::<DVec3>();
-            let force = push * options.k_b + (xyz[i] - body.at) * options.k_c - body.velocity * options.k_f;
+            let push = lists[i]
+                .iter()
+                .map(|&j| repulsion(xyz[i], xyz[j as usize], diameter, i))
+                .sum::<DVec3>();
+            let force =
+                push * options.k_b + (xyz[i] - body.at) * options.k_c - body.velocity * options.k_f;
             let before = body.velocity;
             body.velocity += force / mass * dt;
             body.at += (before + body.velocity) * (0.5 * dt);
             body.foot = carrier.follow(&body.foot, body.at);
         });
-        let moved = bodies.iter().zip(&xyz[fixed.len()..]).map(|(b, &p)| carrier.xyz(&b.foot).distance(p));
+        let moved =
+            bodies.iter().zip(&xyz[fixed.len()..]).map(|(b, &p)| carrier.xyz(&b.foot).distance(p));
         report.last_move = moved.fold(0.0, f64::max) / edge_length;
         report.steps += 1;
         report.converged = report.last_move < options.settled;
@@ -89,7 +102,8 @@ fn repulsion(at: DVec3, other: DVec3, diameter: f64, index: usize) -> DVec3 {
     }
     if distance < 1e-9 * diameter {
         let angle = index as f64;
-        return DVec3::new(crate::math::trig::cos(angle), crate::math::trig::sin(angle), 0.0) * diameter;
+        return DVec3::new(crate::math::trig::cos(angle), crate::math::trig::sin(angle), 0.0)
+            * diameter;
     }
     d * ((diameter - distance) / distance)
 }

@@ -71,8 +71,9 @@ impl Lattice {
             for i in low.x.ceil() as i64..=high.x.floor() as i64 {
                 for j in low.y.ceil() as i64..=high.y.floor() as i64 {
                     let x = DVec2::new(i as f64, j as f64);
-                    let bary = [(q - x).perp_dot(r - x), (r - x).perp_dot(p - x), (p - x).perp_dot(q - x)]
-                        .map(|area| area / whole);
+                    let bary =
+                        [(q - x).perp_dot(r - x), (r - x).perp_dot(p - x), (p - x).perp_dot(q - x)]
+                            .map(|area| area / whole);
                     // A point on an edge shows up in both triangles: the second one is dropped below.
                     let uv = corners[0] * bary[0] + corners[1] * bary[1] + corners[2] * bary[2];
                     if bary.iter().all(|&w| w >= -1e-9) && rim.is_clear(uv) {
@@ -105,7 +106,8 @@ impl Rim {
             for k in 0..chain.vertices.len() {
                 let p = chart.uv[chain.vertices[k] as usize];
                 let q = chart.uv[chain.vertices[(k + 1) % chain.vertices.len()] as usize];
-                let (low, high) = (cell(p.min(q) - margin, margin), cell(p.max(q) + margin, margin));
+                let (low, high) =
+                    (cell(p.min(q) - margin, margin), cell(p.max(q) + margin, margin));
                 for i in low[0]..=high[0] {
                     for j in low[1]..=high[1] {
                         cells.push(([i, j], [p, q]));

@@ -28,7 +28,14 @@ pub struct Report {
 }
 
 /// Regularize a grid for members of `length` metres by the recipe's method.
-pub fn regularize(surface: &Surface, grid: Grid, length: f64, recipe: &Recipe, seed: u64, job: &Job) -> (Grid, Report) {
+pub fn regularize(
+    surface: &Surface,
+    grid: Grid,
+    length: f64,
+    recipe: &Recipe,
+    seed: u64,
+    job: &Job,
+) -> (Grid, Report) {
     let mut state = State::new(surface, grid, length, recipe.measure.lambda);
     let mut report = paper::algorithm1(&mut state, &recipe.regularize, job);
     if recipe.regularize.method == RegularizeMethod::Search {

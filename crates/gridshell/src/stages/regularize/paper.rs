@@ -38,7 +38,8 @@ impl PartialOrd for Candidate {
 /// Run Algorithm 1 on `state`.
 pub fn algorithm1(state: &mut State, options: &Regularize, job: &Job) -> Report {
     let start = state.grid.mesh.vertex_count() as f64;
-    let range = (start * (1.0 - options.node_range)) as usize..=(start * (1.0 + options.node_range)).ceil() as usize;
+    let range = (start * (1.0 - options.node_range)) as usize
+        ..=(start * (1.0 + options.node_range)).ceil() as usize;
     let mut report = Report::default();
     // Featured edges whose operation was refused: not tried again.
     let mut spent: Vec<(u32, u32)> = Vec::new();
@@ -57,7 +58,11 @@ pub fn algorithm1(state: &mut State, options: &Regularize, job: &Job) -> Report 
             report.refused += 1;
         }
         spent.push((a, b));
-        job.progress("regularize", round as f64 / options.max_rounds as f64, &state.grid.flat_xyz());
+        job.progress(
+            "regularize",
+            round as f64 / options.max_rounds as f64,
+            &state.grid.flat_xyz(),
+        );
     }
     report
 }
@@ -119,7 +124,10 @@ fn featured_edge(state: &State, spent: &[(u32, u32)]) -> Option<(u32, u32)> {
             }
             let own = |v: u32| state.gamma(v) * f64::from(dev(v) * dev(v));
             let apexes = [mesh.left(a, b), mesh.right(a, b)];
-            let key = (own(a) + own(b) + apexes.iter().flatten().map(|&v| own(v)).sum::<f64>(), !drifting);
+            let key = (
+                own(a) + own(b) + apexes.iter().flatten().map(|&v| own(v)).sum::<f64>(),
+                !drifting,
+            );
             if best.is_none_or(|(k, _)| key > k) {
                 best = Some((key, (a, b)));
             }
@@ -139,13 +147,15 @@ fn operate(
     let count = state.grid.mesh.vertex_count();
     match (state.deviation[a as usize].signum(), state.deviation[b as usize].signum()) {
         (-1, -1) => {
-            let done = range.contains(&(count - 1)) && state.collapse(a, b).is_ok() && finish(state, &[a, b]);
+            let done = range.contains(&(count - 1))
+                && state.collapse(a, b).is_ok()
+                && finish(state, &[a, b]);
             report.collapses += usize::from(done);
             done
         }
         (1, 1) => {
-            let done =
-                range.contains(&(count + 1)) && state.split(a, b).is_ok_and(|m| finish(state, &[a, b, m]));
+            let done = range.contains(&(count + 1))
+                && state.split(a, b).is_ok_and(|m| finish(state, &[a, b, m]));
             report.splits += usize::from(done);
             done
         }
@@ -197,13 +207,18 @@ fn path(state: &mut State, black: u32, white: u32, side: u32) -> Option<Vec<(u32
     while flips.len() < LONGEST {
         // Flipping (white, side) hands black to `side` and white to the vertex across.
         let mesh = &state.grid.mesh;
-        let across = [mesh.left(white, side), mesh.right(white, side)].into_iter().flatten().find(|&v| v != behind);
+        let across = [mesh.left(white, side), mesh.right(white, side)]
+            .into_iter()
+            .flatten()
+            .find(|&v| v != behind);
         let Some(across) = across else { break };
         if state.flip(white, side).is_err() {
             break;
         }
         flips.push((white, side));
-        let ends_here = [side, across].iter().any(|&v| state.deviation[v as usize] != 0 || state.grid.mesh.is_boundary(v));
+        let ends_here = [side, across]
+            .iter()
+            .any(|&v| state.deviation[v as usize] != 0 || state.grid.mesh.is_boundary(v));
         if ends_here {
             break;
         }
@@ -233,11 +248,16 @@ fn finish_at_boundary(
         return false;
     }
     let ends = [mesh.next_on_boundary(on), mesh.previous_on_boundary(on)];
-    let opposite = ends.into_iter().flatten().find(|&w| [mesh.left(on, w), mesh.right(on, w)].contains(&Some(inside)));
+    let opposite = ends
+        .into_iter()
+        .flatten()
+        .find(|&w| [mesh.left(on, w), mesh.right(on, w)].contains(&Some(inside)));
     let Some(end) = opposite else { return false };
     let count = mesh.vertex_count();
     if on == black {
-        let done = range.contains(&(count - 1)) && state.collapse(on, end).is_ok() && finish(state, &[on, end, inside]);
+        let done = range.contains(&(count - 1))
+            && state.collapse(on, end).is_ok()
+            && finish(state, &[on, end, inside]);
         report.collapses += usize::from(done);
         done
     } else {

@@ -35,7 +35,8 @@ enum Operation {
 pub fn anneal(state: &mut State, options: &Regularize, seed: u64, job: &Job, report: &mut Report) {
     let mut rng = fastrand::Rng::with_seed(seed);
     let start = state.grid.mesh.vertex_count() as f64;
-    let range = (start * (1.0 - options.node_range)) as usize..=(start * (1.0 + options.node_range)).ceil() as usize;
+    let range = (start * (1.0 - options.node_range)) as usize
+        ..=(start * (1.0 + options.node_range)).ceil() as usize;
     let trials = options.trials * state.irregular().len().max(1);
     for round in 0..ROUNDS {
         for k in 0..trials / ROUNDS {
@@ -83,7 +84,8 @@ fn draw(state: &State, rng: &mut fastrand::Rng) -> Option<(Operation, u32, u32)>
 fn estimate(state: &State, operation: Operation, a: u32, b: u32) -> Option<f64> {
     let mesh = &state.grid.mesh;
     let apexes = [mesh.left(a, b), mesh.right(a, b)];
-    let at_apexes = |by: i32| apexes.iter().flatten().map(|&v| state.residual_change(v, by)).sum::<f64>();
+    let at_apexes =
+        |by: i32| apexes.iter().flatten().map(|&v| state.residual_change(v, by)).sum::<f64>();
     match operation {
         Operation::Flip => state.flip_change(a, b),
         Operation::Split => {
@@ -146,7 +148,8 @@ fn attempt(
     state.refresh(&region);
     let touched = state.touched();
     state.refresh(&touched);
-    let energy = state.length_energy(&region) - before + WEIGHT * (weighted_residual(state, &region) - residual_before);
+    let energy = state.length_energy(&region) - before
+        + WEIGHT * (weighted_residual(state, &region) - residual_before);
     if energy > allowance || state.has_bad_panel(&touched, LEAST_SHAPE) {
         report.refused += 1;
         state.roll_back();

@@ -122,7 +122,8 @@ impl<'a> State<'a> {
     /// Split an edge at its middle (on the surface, or on the loop for a boundary edge).
     pub fn split(&mut self, a: u32, b: u32) -> Result<u32, Refusal> {
         let on_boundary = self.grid.mesh.is_boundary_edge(a, b);
-        let place = if on_boundary { self.middle_on_loop(a, b) } else { self.middle_on_surface(a, b) };
+        let place =
+            if on_boundary { self.middle_on_loop(a, b) } else { self.middle_on_surface(a, b) };
         let m = self.grid.mesh.try_split(a, b, &mut self.undo)?;
         let n = self.grid.mesh.slots();
         if self.grid.xyz.len() < n {

@@ -4,8 +4,8 @@
 
 mod net;
 
-use crate::balance::{self, balance};
 pub use crate::balance::Report;
+use crate::balance::{self, balance};
 use crate::grid::Grid;
 use crate::job::Job;
 use crate::recipe::{Relax, RelaxMethod};
@@ -21,8 +21,11 @@ pub fn relax(surface: &Surface, grid: &mut Grid, options: &Relax, job: &Job) -> 
         RelaxMethod::Net => net::net(surface, grid, options, job),
         RelaxMethod::Fluent => {
             let max_steps = options.max_steps.min(FLUENT_STEPS);
-            let options =
-                balance::Options { straightness: options.straightness, settled: options.settled, max_steps };
+            let options = balance::Options {
+                straightness: options.straightness,
+                settled: options.settled,
+                max_steps,
+            };
             balance(surface, grid, &options, job)
         }
     }

@@ -31,7 +31,10 @@ pub struct Report {
 /// [`Error::Surface`](crate::Error::Surface) when the carrier is not a manifold.
 pub fn triangulate(surface: &Surface, bubbles: &Bubbles) -> Result<(Grid, Report)> {
     let carrier = &surface.carrier;
-    let mut tri = Intrinsic::new(Mesh::from_triangles(carrier.points.len(), &carrier.triangles)?, &carrier.points);
+    let mut tri = Intrinsic::new(
+        Mesh::from_triangles(carrier.points.len(), &carrier.triangles)?,
+        &carrier.points,
+    );
     let mut nodes: Vec<(u32, Place)> = Vec::with_capacity(bubbles.len());
     let interior = insert_interior(&mut tri, surface, &bubbles.interior);
     insert_boundary(&mut tri, surface, bubbles, &mut nodes);
@@ -83,9 +86,12 @@ fn insert_interior(tri: &mut Intrinsic, surface: &Surface, points: &[SurfacePoin
                 .expect("a triangle has at least one part");
             let [a, b, c] = parts.swap_remove(best);
             let at = surface.carrier.xyz(&SurfacePoint { triangle: t, bary });
-            let m = tri.insert([a.0, b.0, c.0], [a, b, c].map(|corner| {
-                surface.carrier.xyz(&SurfacePoint { triangle: t, bary: corner.1 }).distance(at)
-            }));
+            let m = tri.insert(
+                [a.0, b.0, c.0],
+                [a, b, c].map(|corner| {
+                    surface.carrier.xyz(&SurfacePoint { triangle: t, bary: corner.1 }).distance(at)
+                }),
+            );
             parts.extend([[a, b, (m, bary)], [b, c, (m, bary)], [c, a, (m, bary)]]);
             vertex[i] = m;
         }
@@ -113,7 +119,12 @@ fn least_share(corners: &[[f64; 3]; 3], p: [f64; 3]) -> f64 {
 }
 
 /// Split the carrier's boundary edges at the boundary bubbles.
-fn insert_boundary(tri: &mut Intrinsic, surface: &Surface, bubbles: &Bubbles, nodes: &mut Vec<(u32, Place)>) {
+fn insert_boundary(
+    tri: &mut Intrinsic,
+    surface: &Surface,
+    bubbles: &Bubbles,
+    nodes: &mut Vec<(u32, Place)>,
+) {
     let mut last: Option<(u32, usize, u32, f64)> = None;
     for point in &bubbles.boundary {
         let chain = &surface.loops[point.chain as usize];
@@ -141,12 +152,16 @@ fn insert_boundary(tri: &mut Intrinsic, surface: &Surface, bubbles: &Bubbles, no
 /// A place for every carrier vertex.
 fn vertex_places(surface: &Surface) -> Vec<Place> {
     let carrier = &surface.carrier;
-    let mut places = vec![Place::Interior(SurfacePoint { triangle: 0, bary: [1.0, 0.0, 0.0] }); carrier.points.len()];
+    let mut places = vec![
+        Place::Interior(SurfacePoint { triangle: 0, bary: [1.0, 0.0, 0.0] });
+        carrier.points.len()
+    ];
     for (t, corners) in carrier.triangles.iter().enumerate() {
         for k in 0..3 {
             let mut bary = [0.0; 3];
             bary[k] = 1.0;
-            places[corners[k] as usize] = Place::Interior(SurfacePoint { triangle: t as u32, bary });
+            places[corners[k] as usize] =
+                Place::Interior(SurfacePoint { triangle: t as u32, bary });
         }
     }
     for (c, chain) in surface.loops.iter().enumerate() {
