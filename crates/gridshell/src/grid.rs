@@ -31,7 +31,9 @@ impl Place {
     pub fn surface_point(&self, surface: &Surface) -> SurfacePoint {
         match self {
             Place::Interior(p) => *p,
-            Place::Boundary(c) | Place::Corner(c) => surface.loops[c.chain as usize].surface_point(c.s),
+            Place::Boundary(c) | Place::Corner(c) => {
+                surface.loops[c.chain as usize].surface_point(c.s)
+            }
         }
     }
 
@@ -39,7 +41,9 @@ impl Place {
     pub fn exact(&self, surface: &Surface) -> DVec3 {
         match self {
             Place::Interior(p) => surface.exact(p),
-            Place::Boundary(c) | Place::Corner(c) => surface.loops[c.chain as usize].exact(surface, c.s),
+            Place::Boundary(c) | Place::Corner(c) => {
+                surface.loops[c.chain as usize].exact(surface, c.s)
+            }
         }
     }
 
