@@ -5,6 +5,7 @@
 //! exact curves behind them. Metres throughout.
 
 pub mod brep;
+pub mod builtin;
 pub mod carrier;
 pub mod chain;
 pub mod chart;
