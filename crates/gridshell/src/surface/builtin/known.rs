@@ -3,7 +3,12 @@
 use crate::surface::nurbs::{NurbsCurve, NurbsSurface};
 use glam::DVec3;
 
-pub(super) fn curve(degree: usize, knots: Vec<f64>, points: Vec<DVec3>, weights: Vec<f64>) -> NurbsCurve {
+pub(super) fn curve(
+    degree: usize,
+    knots: Vec<f64>,
+    points: Vec<DVec3>,
+    weights: Vec<f64>,
+) -> NurbsCurve {
     NurbsCurve { degree, knots, points, weights }
 }
 
