@@ -9,8 +9,10 @@ pub mod builtin;
 pub mod carrier;
 pub mod chain;
 pub mod curve;
+mod ear;
 pub mod model;
 pub mod nurbs;
+mod polygon;
 pub mod shape;
 
 pub use brep::Brep;
