@@ -10,10 +10,12 @@ pub mod carrier;
 pub mod chain;
 pub mod chart;
 pub mod curve;
+mod ear;
 pub mod facets;
 pub mod locate;
 pub mod model;
 pub mod nurbs;
+mod polygon;
 pub mod shape;
 
 pub use brep::Brep;

@@ -9,7 +9,7 @@ pub(super) fn curve(
     points: Vec<DVec3>,
     weights: Vec<f64>,
 ) -> NurbsCurve {
-    NurbsCurve { degree, knots, points, weights }
+    NurbsCurve::new(degree, knots, points, weights).expect("a well-formed spline")
 }
 
 pub(super) fn surface(
@@ -19,5 +19,5 @@ pub(super) fn surface(
     points: Vec<DVec3>,
     weights: Vec<f64>,
 ) -> NurbsSurface {
-    NurbsSurface { degree, knots, count, points, weights }
+    NurbsSurface::new(degree, knots, count, points, weights).expect("a well-formed patch")
 }
