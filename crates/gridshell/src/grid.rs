@@ -28,6 +28,78 @@ pub struct Grid {
 }
 
 impl Grid {
+    /// Length of the member between nodes `a` and `b`, metres.
+    pub fn length(&self, a: u32, b: u32) -> f64 {
+        self.xyz[a as usize].distance(self.xyz[b as usize])
+    }
+
+    /// All positions, x y z of one node after the other.
+    pub fn flat_xyz(&self) -> Vec<f64> {
+        self.xyz.iter().flat_map(|p| p.to_array()).collect()
+    }
+
+    /// Move every node to the exact surface (and exact boundary) point that its place stands for.
+    pub fn settle_exactly(&mut self, surface: &Surface) {
+        for (p, place) in self.xyz.iter_mut().zip(&self.places) {
+            *p = place.exact(surface);
+        }
+    }
+
+    /// The part of `v` along which node `i` may move: in the tangent plane, along the boundary, not at all.
+    pub fn tangential(&self, surface: &Surface, i: usize, v: DVec3) -> DVec3 {
+        match &self.places[i] {
+            Place::Interior(p) => {
+                let n = surface.carrier.normal(p);
+                v - n * v.dot(n)
+            }
+            Place::Boundary(c) => {
+                let t = surface.loops[c.chain as usize].tangent(&surface.carrier, c.s);
+                t * v.dot(t)
+            }
+            Place::Corner(_) => DVec3::ZERO,
+        }
+    }
+
+    /// Slide node `i` by about `step` on the surface or along its loop, where it keeps a distance from its
+    /// neighbours on the loop; gives the distance moved, metres.
+    pub fn slide(&mut self, surface: &Surface, i: usize, step: DVec3) -> f64 {
+        let before = self.xyz[i];
+        match &mut self.places[i] {
+            Place::Interior(p) => {
+                *p = surface.carrier.trace(p, step);
+                self.xyz[i] = surface.carrier.xyz(p);
+            }
+            Place::Boundary(c) => {
+                let chain = &surface.loops[c.chain as usize];
+                let along = step.dot(chain.tangent(&surface.carrier, c.s));
+                let at = *c;
+                let along =
+                    along.clamp(-self.room(surface, i, at, false), self.room(surface, i, at, true));
+                let s = chain.wrap(at.s + along);
+                self.places[i] = Place::Boundary(ChainPoint { s, ..at });
+                self.xyz[i] = chain.xyz(&surface.carrier, s);
+            }
+            Place::Corner(_) => {}
+        }
+        self.xyz[i].distance(before)
+    }
+
+    /// How far boundary node `i` at `at` may slide forward (or back) along its loop: part of the way to the
+    /// next node there.
+    fn room(&self, surface: &Surface, i: usize, at: ChainPoint, forward: bool) -> f64 {
+        const SHARE: f64 = 0.4;
+        let v = i as u32;
+        let next =
+            if forward { self.mesh.next_on_boundary(v) } else { self.mesh.previous_on_boundary(v) };
+        let Some(Place::Boundary(other) | Place::Corner(other)) =
+            next.map(|n| self.places[n as usize])
+        else {
+            return 0.0;
+        };
+        let gap = if forward { other.s - at.s } else { at.s - other.s };
+        SHARE * surface.loops[at.chain as usize].wrap(gap)
+    }
+
     /// The grid of these nodes and panels (counter-clockwise seen from outside), each node with the place
     /// of `surface` nearest to it; positions stay as they are.
     ///

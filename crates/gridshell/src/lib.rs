@@ -1,6 +1,8 @@
 //! Triangular grids for free-form gridshells, after Wang et al., *A triangular grid generation and
 //! optimization framework for the design of free-form gridshells*.
 
+pub mod balance;
+pub mod bubbles;
 pub mod degree;
 pub mod error;
 pub mod grid;

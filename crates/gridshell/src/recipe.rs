@@ -182,7 +182,10 @@ impl Recipe {
     /// The names that [`Recipe::named`] knows, with a line on each.
     pub const METHODS: [(&'static str, &'static str); 2] = [
         ("default", "lattice start, annealed edge operations, fluent relaxation"),
-        ("paper", "the method as Wang et al. print it: random bubbles, Algorithm 1, net-like relaxation"),
+        (
+            "paper",
+            "the method as Wang et al. print it: random bubbles, Algorithm 1, net-like relaxation",
+        ),
     ];
 
     /// A recipe by its method name.
@@ -200,7 +203,10 @@ impl Recipe {
             }
             _ => {
                 let names: Vec<_> = Self::METHODS.iter().map(|m| m.0).collect();
-                return Err(Error::Option(format!("no method {method:?}; there are: {}", names.join(", "))));
+                return Err(Error::Option(format!(
+                    "no method {method:?}; there are: {}",
+                    names.join(", ")
+                )));
             }
         }
         Ok(recipe)

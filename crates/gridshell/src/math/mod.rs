@@ -3,4 +3,5 @@
 //! `+ - * / sqrt` are exact by IEEE 754; everything else goes through `libm` here, so that the same
 //! seed gives the same grid everywhere.
 
+pub mod dual;
 pub mod trig;

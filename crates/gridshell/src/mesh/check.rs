@@ -16,7 +16,9 @@ impl Mesh {
             }
             for (i, &w) in ring.iter().enumerate() {
                 if w == v || !self.is_alive(w) || ring[i + 1..].contains(&w) {
-                    return Err(format!("vertex {v} lists {w}, which is itself, removed or twice there"));
+                    return Err(format!(
+                        "vertex {v} lists {w}, which is itself, removed or twice there"
+                    ));
                 }
                 if !self.adjacent(w, v) {
                     return Err(format!("vertex {v} lists {w} but not the other way round"));

@@ -33,10 +33,12 @@ impl Mesh {
                 steps[t[k] as usize].push((t[(k + 1) % 3], t[(k + 2) % 3]));
             }
         }
-        let mut mesh = Mesh { boundary: vec![false; n], pinned: vec![false; n], alive: n, ..Mesh::default() };
+        let mut mesh =
+            Mesh { boundary: vec![false; n], pinned: vec![false; n], alive: n, ..Mesh::default() };
         for (v, steps) in steps.into_iter().enumerate() {
-            let (ring, boundary) = chain_up(&steps)
-                .ok_or_else(|| Error::Surface(format!("the triangles around vertex {v} do not form one fan")))?;
+            let (ring, boundary) = chain_up(&steps).ok_or_else(|| {
+                Error::Surface(format!("the triangles around vertex {v} do not form one fan"))
+            })?;
             mesh.rings.push(ring);
             mesh.boundary[v] = boundary;
         }
@@ -144,12 +146,15 @@ impl Mesh {
 
     /// Every edge once, as (lower id, higher id), in ascending order of the lower one.
     pub fn edges(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
-        self.vertices().flat_map(|v| self.ring(v).iter().filter(move |&&w| v < w).map(move |&w| (v, w)))
+        self.vertices()
+            .flat_map(|v| self.ring(v).iter().filter(move |&&w| v < w).map(move |&w| (v, w)))
     }
 
     /// Every triangle once, its lowest id first, in ascending order of that.
     pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
-        self.vertices().flat_map(|v| self.fan(v).filter(move |&(a, b)| v < a && v < b).map(move |(a, b)| [v, a, b]))
+        self.vertices().flat_map(|v| {
+            self.fan(v).filter(move |&(a, b)| v < a && v < b).map(move |(a, b)| [v, a, b])
+        })
     }
 
     /// Number of vertices in use.

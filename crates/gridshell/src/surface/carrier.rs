@@ -49,7 +49,8 @@ impl Carrier {
         uv: Vec<[DVec2; 3]>,
     ) -> Carrier {
         let neighbors = adjacency(&triangles);
-        let gradients = triangles.iter().map(|t| gradients(t.map(|v| points[v as usize]))).collect();
+        let gradients =
+            triangles.iter().map(|t| gradients(t.map(|v| points[v as usize]))).collect();
         let mut normals = vec![DVec3::ZERO; points.len()];
         for t in &triangles {
             let p = t.map(|v| points[v as usize]);

@@ -3,8 +3,14 @@
 //! Places on a chain are given by their arc length `s` along the carrier's polyline, in metres, from the
 //! chain's first vertex. On a closed chain `s` wraps round.
 
-use super::{Carrier, Surface, SurfacePoint};
+use super::carrier::NONE;
+use super::{Carrier, Curve, Surface, SurfacePoint};
+use crate::math::trig;
 use glam::DVec3;
+
+/// Tangents at a segment's ends are taken this share of the segment inside it, so that a kink in the
+/// curve at the vertex shows.
+const INSIDE: f64 = 1e-4;
 
 /// One segment of a chain: the carrier edge from vertex k to the next one.
 #[derive(Clone, Copy, Debug)]
@@ -98,5 +104,156 @@ impl Chain {
             Some(curve) => curve.point(seg.t[0] + (seg.t[1] - seg.t[0]) * f),
             None => self.xyz(&surface.carrier, s),
         }
+    }
+
+    /// Mark as corners the vertices where the chain turns by more than `corner_angle` radians, between
+    /// the exact tangents where segments have curves and between the segments themselves elsewhere. A
+    /// chain with corners is turned to begin at one.
+    pub fn find_corners(&mut self, carrier: &Carrier, curves: &[Curve], corner_angle: f64) {
+        let n = self.segments.len();
+        let ends: Vec<[DVec3; 2]> = (0..n).map(|k| self.end_tangents(carrier, curves, k)).collect();
+        self.corners = (0..n)
+            .filter(|&k| trig::angle(ends[(k + n - 1) % n][1], ends[k][0]) > corner_angle)
+            .map(|k| k as u32)
+            .collect();
+        let Some(&first) = self.corners.first() else { return };
+        self.vertices.rotate_left(first as usize);
+        self.segments.rotate_left(first as usize);
+        for c in &mut self.corners {
+            *c -= first;
+        }
+        self.measure(carrier);
+    }
+
+    /// Directions of segment `k` at its two ends.
+    fn end_tangents(&self, carrier: &Carrier, curves: &[Curve], k: usize) -> [DVec3; 2] {
+        let a = carrier.points[self.vertices[k] as usize];
+        let b = carrier.points[self.vertices[(k + 1) % self.vertices.len()] as usize];
+        let seg = &self.segments[k];
+        let Some(curve) = curves.get(seg.curve as usize) else { return [b - a; 2] };
+        let [t0, t1] = seg.t;
+        [INSIDE, 1.0 - INSIDE].map(|f| {
+            let d = curve.jet(t0 + (t1 - t0) * f)[1] * (t1 - t0);
+            // A curve with no speed here says nothing of its direction.
+            if d.length() > INSIDE * a.distance(b) { d } else { b - a }
+        })
+    }
+
+    /// Fill in the arc lengths.
+    fn measure(&mut self, carrier: &Carrier) {
+        let n = self.vertices.len();
+        self.arc = Vec::with_capacity(n + 1);
+        let mut s = 0.0;
+        for k in 0..n {
+            self.arc.push(s);
+            let (a, b) = (self.vertices[k], self.vertices[(k + 1) % n]);
+            s += carrier.points[a as usize].distance(carrier.points[b as usize]);
+        }
+        self.arc.push(s);
+    }
+}
+
+/// The boundary loops of a carrier, longest first. `curve_of(a, b)` names the exact curve behind the
+/// carrier edge from vertex a to vertex b, with its parameters at a and at b; None where there is none.
+/// Corners are marked by the turning between segments; where there are curves, mark them again with
+/// [`Chain::find_corners`].
+pub fn boundary_loops(
+    carrier: &Carrier,
+    corner_angle: f64,
+    curve_of: impl Fn(u32, u32) -> Option<(u32, f64, f64)>,
+) -> Vec<Chain> {
+    // A manifold carrier has at most one boundary edge leaving each vertex.
+    let mut leaving: Vec<Option<(u32, u8)>> = vec![None; carrier.points.len()];
+    for (t, corners) in carrier.triangles.iter().enumerate() {
+        for k in 0..3 {
+            if carrier.neighbors[t][k] == NONE {
+                leaving[corners[k] as usize] = Some((t as u32, k as u8));
+            }
+        }
+    }
+    let mut loops = Vec::new();
+    for start in 0..carrier.points.len() {
+        let mut chain = Chain::default();
+        let mut a = start as u32;
+        while let Some((triangle, edge)) = leaving[a as usize].take() {
+            let b = carrier.triangles[triangle as usize][(edge as usize + 1) % 3];
+            let (curve, t0, t1) = curve_of(a, b).unwrap_or((u32::MAX, 0.0, 0.0));
+            chain.vertices.push(a);
+            chain.segments.push(Segment { curve, t: [t0, t1], triangle, edge });
+            a = b;
+        }
+        if chain.vertices.len() >= 3 {
+            chain.measure(carrier);
+            chain.find_corners(carrier, &[], corner_angle);
+            loops.push(chain);
+        }
+    }
+    loops.sort_by(|a, b| b.length().total_cmp(&a.length()));
+    loops
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::nurbs::NurbsCurve;
+
+    /// A flat ring of 2 n triangles between a square of side 6 and one of side 2.
+    fn square_ring() -> Carrier {
+        let square =
+            |h: f64| [(-h, -h), (h, -h), (h, h), (-h, h)].map(|(x, y)| DVec3::new(x, y, 0.0));
+        let points = [square(3.0), square(1.0)].concat();
+        let mut triangles = Vec::new();
+        for i in 0..4u32 {
+            let j = (i + 1) % 4;
+            triangles.push([i, j, 4 + j]);
+            triangles.push([i, 4 + j, 4 + i]);
+        }
+        let n = triangles.len();
+        Carrier::new(points, triangles, vec![0; n], Vec::new())
+    }
+
+    #[test]
+    fn ring_has_two_loops_with_the_surface_to_the_left() {
+        let carrier = square_ring();
+        let loops = boundary_loops(&carrier, 0.5, |_, _| None);
+        assert_eq!(loops.len(), 2);
+        assert!(
+            (loops[0].length() - 24.0).abs() < 1e-12 && (loops[1].length() - 8.0).abs() < 1e-12
+        );
+        assert_eq!(loops[0].vertices, [0, 1, 2, 3]);
+        assert_eq!(loops[1].vertices, [4, 7, 6, 5]);
+        assert_eq!(loops[1].corners, [0, 1, 2, 3]);
+        for l in &loops {
+            for (k, s) in l.segments.iter().enumerate() {
+                assert_eq!(carrier.triangles[s.triangle as usize][s.edge as usize], l.vertices[k]);
+            }
+        }
+    }
+
+    #[test]
+    fn corners_count_by_the_angle_asked_for() {
+        let loops = boundary_loops(&square_ring(), 1.6, |_, _| None);
+        assert!(loops.iter().all(|l| l.corners.is_empty()));
+    }
+
+    #[test]
+    fn coarse_round_hole_has_no_corners_when_its_curve_is_known() {
+        // The inner square as four quarter circles of radius sqrt 2.
+        let carrier = square_ring();
+        let quarter = |a: DVec3, b: DVec3| {
+            let w = vec![1.0, std::f64::consts::FRAC_1_SQRT_2, 1.0];
+            let knots = vec![0., 0., 0., 1., 1., 1.];
+            Curve::Nurbs(NurbsCurve::new(2, knots, vec![a, a + b, b], w).unwrap())
+        };
+        let curves: Vec<_> =
+            (4..8).map(|i| quarter(carrier.points[i], carrier.points[4 + (i - 3) % 4])).collect();
+        let curve_of =
+            |a: u32, b: u32| (a >= 4 && b >= 4 && (b + 1) % 4 == a % 4).then(|| (b - 4, 1.0, 0.0));
+        let mut loops = boundary_loops(&carrier, 0.5, curve_of);
+        for l in &mut loops {
+            l.find_corners(&carrier, &curves, 0.5);
+        }
+        assert_eq!(loops[0].corners.len(), 4);
+        assert!(loops[1].corners.is_empty());
     }
 }

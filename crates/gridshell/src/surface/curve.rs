@@ -2,7 +2,7 @@
 
 use super::nurbs::NurbsCurve;
 use super::shape::Shape;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use std::sync::Arc;
 
 /// The exact geometry of one edge.
@@ -10,8 +10,8 @@ use std::sync::Arc;
 pub enum Curve {
     /// A (rational) B-spline curve in space.
     Nurbs(NurbsCurve),
-    /// A curve drawn in the parameters of a patch: the image of uv(t) (and its derivative).
-    OnShape(Arc<Shape>, fn(f64) -> [DVec2; 2]),
+    /// A curve drawn in the parameters of a patch: the image of uv(t), which is a spline in the plane z = 0.
+    OnShape(Arc<Shape>, NurbsCurve),
 }
 
 impl Curve {
@@ -25,8 +25,8 @@ impl Curve {
         match self {
             Curve::Nurbs(c) => c.jet(t),
             Curve::OnShape(shape, uv) => {
-                let [p, d] = uv(t);
-                let j = shape.jet(p);
+                let [p, d] = uv.jet(t);
+                let j = shape.jet(p.truncate());
                 [j.point, j.du * d.x + j.dv * d.y]
             }
         }

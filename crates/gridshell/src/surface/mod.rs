@@ -5,8 +5,10 @@
 //! exact curves behind them. Metres throughout.
 
 pub mod brep;
+pub mod builtin;
 pub mod carrier;
 pub mod chain;
+pub mod chart;
 pub mod curve;
 pub mod facets;
 pub mod locate;
@@ -41,6 +43,13 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// V - E + F of the carrier.
+    pub fn euler_characteristic(&self) -> i64 {
+        let faces = self.carrier.triangles.len();
+        let open = self.carrier.neighbors.iter().flatten().filter(|&&n| n == carrier::NONE).count();
+        self.carrier.points.len() as i64 - ((3 * faces + open) / 2) as i64 + faces as i64
+    }
+
     /// The exact point of the design surface that the carrier point stands for: the patch evaluated at
     /// the interpolated parameters. On a mesh, the carrier point itself.
     pub fn exact(&self, point: &SurfacePoint) -> DVec3 {
