@@ -296,14 +296,20 @@ mod tests {
     fn lengths_that_are_no_lengths_are_refused_by_name() {
         for edge_length in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let error = Recipe { edge_length: Some(edge_length), ..Recipe::default() }.validate();
-            assert!(error.is_err_and(|e| e.to_string().starts_with("edge_length is")), "{edge_length}");
+            assert!(
+                error.is_err_and(|e| e.to_string().starts_with("edge_length is")),
+                "{edge_length}"
+            );
         }
     }
 
     #[test]
     fn counts_beyond_reason_are_refused() {
         for nodes in [0, 2, 2_000_001, usize::MAX] {
-            assert!(Recipe { nodes: Some(nodes), ..Recipe::default() }.validate().is_err(), "{nodes}");
+            assert!(
+                Recipe { nodes: Some(nodes), ..Recipe::default() }.validate().is_err(),
+                "{nodes}"
+            );
         }
     }
 
