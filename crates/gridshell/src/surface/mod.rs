@@ -12,8 +12,10 @@ pub mod chart;
 pub mod curve;
 pub mod facets;
 pub mod locate;
+mod ear;
 pub mod model;
 pub mod nurbs;
+mod polygon;
 pub mod shape;
 
 pub use brep::Brep;

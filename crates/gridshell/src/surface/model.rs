@@ -42,7 +42,10 @@ impl Model {
     ///
     /// # Errors
     /// [`Error::Surface`](crate::Error::Surface) where the model is no manifold surface.
-    pub fn surface(&self, _sampling: &Sampling) -> Result<Surface> {
-        unimplemented!()
+    pub fn surface(&self, sampling: &Sampling) -> Result<Surface> {
+        match self {
+            Model::Brep(_) => unimplemented!(),
+            Model::Mesh(mesh) => mesh.surface(sampling),
+        }
     }
 }

@@ -27,7 +27,13 @@ pub(super) fn brep() -> Brep {
         ]
     };
     let (near, far) = (profile(-HALF_LENGTH), profile(HALF_LENGTH));
-    let shape = known::surface([1, 2], [vec![0.0, 0.0, 1.0, 1.0], vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0]], [2, 3], near.iter().chain(&far).copied().collect(), vec![1.0, cosine, 1.0, 1.0, cosine, 1.0]);
+    let shape = known::surface(
+        [1, 2],
+        [vec![0.0, 0.0, 1.0, 1.0], vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0]],
+        [2, 3],
+        near.iter().chain(&far).copied().collect(),
+        vec![1.0, cosine, 1.0, 1.0, cosine, 1.0],
+    );
     let [a, b, c, d] = [near[0], far[0], far[2], near[2]].map(|p| sketch.vertex(p));
     let right = sketch.line(a, b);
     let end = sketch.whole(arc(far[0], far[1], far[2], cosine), [b, c]);

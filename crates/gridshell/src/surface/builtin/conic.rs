@@ -33,7 +33,12 @@ pub(super) fn line(a: DVec3, b: DVec3) -> NurbsCurve {
 
 /// The full circle (or ellipse) round `center` from `center + x` by way of `center + y`, parameter 0 to 1.
 pub(super) fn circle(center: DVec3, x: DVec3, y: DVec3) -> NurbsCurve {
-    known::curve(2, CIRCLE_KNOTS.to_vec(), CIRCLE_POINTS.iter().map(|p| center + x * p[0] + y * p[1]).collect(), CIRCLE_WEIGHTS.to_vec())
+    known::curve(
+        2,
+        CIRCLE_KNOTS.to_vec(),
+        CIRCLE_POINTS.iter().map(|p| center + x * p[0] + y * p[1]).collect(),
+        CIRCLE_WEIGHTS.to_vec(),
+    )
 }
 
 /// A conic arc from `a` to `b`, whose tangents meet in `apex`; on a circle the `weight` is the cosine of

@@ -47,10 +47,23 @@ pub(super) fn brep() -> Brep {
         .collect();
     for k in 0..PATCHES {
         let net = &columns[3 * k..3 * k + 4];
-        let row = |j: usize| known::curve(3, clamped_knots(4, 0.0, 1.0), net.iter().map(|column| column[j]).collect(), Vec::new());
+        let row = |j: usize| {
+            known::curve(
+                3,
+                clamped_knots(4, 0.0, 1.0),
+                net.iter().map(|column| column[j]).collect(),
+                Vec::new(),
+            )
+        };
         let lower = sketch.whole(row(0), [vertices[k][0], vertices[k + 1][0]]);
         let upper = sketch.whole(row(ACROSS - 1), [vertices[k][1], vertices[k + 1][1]]);
-        let shape = known::surface([3, 3], [clamped_knots(4, 0.0, 1.0), clamped_knots(ACROSS, 0.0, 1.0)], [4, ACROSS], net.as_flattened().to_vec(), Vec::new());
+        let shape = known::surface(
+            [3, 3],
+            [clamped_knots(4, 0.0, 1.0), clamped_knots(ACROSS, 0.0, 1.0)],
+            [4, ACROSS],
+            net.as_flattened().to_vec(),
+            Vec::new(),
+        );
         let outline = vec![along(lower), along(seams[k + 1]), against(upper), against(seams[k])];
         sketch.face(Shape::Nurbs(shape), vec![outline]);
     }

@@ -3,8 +3,13 @@
 use crate::surface::nurbs::{NurbsCurve, NurbsSurface};
 use glam::DVec3;
 
-pub(super) fn curve(degree: usize, knots: Vec<f64>, points: Vec<DVec3>, weights: Vec<f64>) -> NurbsCurve {
-    NurbsCurve { degree, knots, points, weights }
+pub(super) fn curve(
+    degree: usize,
+    knots: Vec<f64>,
+    points: Vec<DVec3>,
+    weights: Vec<f64>,
+) -> NurbsCurve {
+    NurbsCurve::new(degree, knots, points, weights).expect("a well-formed spline")
 }
 
 pub(super) fn surface(
@@ -14,5 +19,5 @@ pub(super) fn surface(
     points: Vec<DVec3>,
     weights: Vec<f64>,
 ) -> NurbsSurface {
-    NurbsSurface { degree, knots, count, points, weights }
+    NurbsSurface::new(degree, knots, count, points, weights).expect("a well-formed patch")
 }

@@ -24,7 +24,12 @@ pub(super) fn clamped(points: &[[f64; 2]]) -> NurbsCurve {
 /// The closed, smooth uniform cubic with these control points in the plane, and its parameter range.
 pub(super) fn closed(points: &[[f64; 2]]) -> (NurbsCurve, [f64; 2]) {
     let n = points.len();
-    let curve = known::curve(3, (0..n + 7).map(|k| k as f64 - 3.0).collect(), plane(points).chain(plane(&points[..3])).collect(), Vec::new());
+    let curve = known::curve(
+        3,
+        (0..n + 7).map(|k| k as f64 - 3.0).collect(),
+        plane(points).chain(plane(&points[..3])).collect(),
+        Vec::new(),
+    );
     (curve, [0.0, n as f64])
 }
 

@@ -60,5 +60,11 @@ fn half_circle(control: impl Fn(usize) -> (DVec3, f64)) -> NurbsCurve {
 fn patch(i: usize, j: usize) -> Shape {
     let net = (0..5).flat_map(|a| (0..5).map(move |b| control(4 * i + a, 4 * j + b)));
     let (points, weights) = net.unzip();
-    Shape::Nurbs(known::surface([2, 2], [HALF_KNOTS.to_vec(), HALF_KNOTS.to_vec()], [5, 5], points, weights))
+    Shape::Nurbs(known::surface(
+        [2, 2],
+        [HALF_KNOTS.to_vec(), HALF_KNOTS.to_vec()],
+        [5, 5],
+        points,
+        weights,
+    ))
 }

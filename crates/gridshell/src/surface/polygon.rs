@@ -1,0 +1,174 @@
+//! A polygon mesh as design surface: faces split into triangles, long edges halved. The mesh is the
+//! surface: nothing here moves a point or changes the shape (but for the choice of diagonals in faces that
+//! are not plane).
+
+use super::chain::boundary_loops;
+use super::ear::split;
+use super::{Carrier, PolygonMesh, Sampling, Surface};
+use crate::error::{Error, Result};
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// More triangles than this are refused: at about 300 bytes each they would fill a small machine.
+const MAX_TRIANGLES: f64 = 4e6;
+
+impl PolygonMesh {
+    /// The mesh as a surface, with no triangle edge longer than the sampling's longest.
+    ///
+    /// # Errors
+    /// [`Error::Surface`] where there is no face, or the sampling is far too fine for the mesh.
+    pub fn surface(&self, sampling: &Sampling) -> Result<Surface> {
+        let mut points = self.points.clone();
+        let mut triangles: Vec<[u32; 3]> = Vec::new();
+        for face in &self.faces {
+            split(&self.points, face, &mut triangles);
+        }
+        if triangles.is_empty() {
+            return Err(Error::Surface(format!("{}: the mesh has no faces", self.name)));
+        }
+        self.check_size(&triangles, sampling.max_edge)?;
+        while let Some(finer) = halve(&mut points, &triangles, sampling.max_edge) {
+            triangles = finer;
+        }
+        let area = triangles.iter().map(|t| area(&points, t)).sum();
+        let patch = vec![0; triangles.len()];
+        let carrier = Carrier::new(points, triangles, patch, Vec::new());
+        let loops = boundary_loops(&carrier, sampling.corner_angle, |_, _| None);
+        Ok(Surface {
+            name: self.name.clone(),
+            carrier,
+            loops,
+            shapes: Vec::new(),
+            curves: Vec::new(),
+            area,
+        })
+    }
+
+    /// Halving goes on by powers of two, so a triangle yields about as many as its edges hold `max_edge`,
+    /// squared.
+    fn check_size(&self, triangles: &[[u32; 3]], max_edge: f64) -> Result<()> {
+        let expected: f64 = triangles
+            .iter()
+            .map(|t| {
+                let long = lengths(&self.points, t).into_iter().fold(0.0, f64::max) / max_edge;
+                let wide = 2.0 * area(&self.points, t) / (max_edge * max_edge);
+                1.0 + long + 2.0 * wide
+            })
+            .sum();
+        if expected <= MAX_TRIANGLES {
+            return Ok(());
+        }
+        Err(Error::Surface(format!(
+            "{}: sampling the mesh every {max_edge:.3} m would take about {expected:.0} triangles; choose a larger \
+             edge length, or scale the mesh if its unit is not the metre",
+            self.name
+        )))
+    }
+}
+
+fn area(points: &[DVec3], t: &[u32; 3]) -> f64 {
+    let [a, b, c] = t.map(|v| points[v as usize]);
+    0.5 * (b - a).cross(c - a).length()
+}
+
+/// Length of the edge from corner k to corner k + 1.
+fn lengths(points: &[DVec3], t: &[u32; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| points[t[k] as usize].distance(points[t[(k + 1) % 3] as usize]))
+}
+
+/// One round of halving every edge longer than `max_edge`; None when there is none. The longest edge of a
+/// triangle is always among those halved, which keeps the angles from shrinking (Rivara 1984).
+fn halve(points: &mut Vec<DVec3>, triangles: &[[u32; 3]], max_edge: f64) -> Option<Vec<[u32; 3]>> {
+    let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
+    let mut finer = Vec::with_capacity(triangles.len() * 2);
+    for t in triangles {
+        let length = lengths(points, t);
+        let mut middle = [None; 3];
+        for k in 0..3 {
+            let (a, b) = (t[k].min(t[(k + 1) % 3]), t[k].max(t[(k + 1) % 3]));
+            // The length of an edge is the same, bit for bit, seen from both sides.
+            if length[k] <= max_edge {
+                continue;
+            }
+            middle[k] = Some(*middles.entry((a, b)).or_insert_with(|| {
+                points.push((points[a as usize] + points[b as usize]) / 2.0);
+                points.len() as u32 - 1
+            }));
+        }
+        let longest = (0..3).fold(0, |best, k| if length[k] > length[best] { k } else { best });
+        let turn = |k: usize| (longest + k) % 3;
+        divide([0, 1, 2].map(|k| t[turn(k)]), [0, 1, 2].map(|k| middle[turn(k)]), &mut finer);
+    }
+    (!middles.is_empty()).then_some(finer)
+}
+
+/// Divide the triangle a b c by the middles of its edges a b (the longest), b c and c a.
+fn divide([a, b, c]: [u32; 3], middles: [Option<u32>; 3], out: &mut Vec<[u32; 3]>) {
+    match middles {
+        [Some(m), Some(n), Some(o)] => out.extend([[a, m, o], [m, b, n], [o, n, c], [m, n, o]]),
+        [Some(m), Some(n), None] => out.extend([[a, m, c], [m, b, n], [m, n, c]]),
+        [Some(m), None, Some(o)] => out.extend([[a, m, o], [m, b, c], [o, m, c]]),
+        [Some(m), None, None] => out.extend([[a, m, c], [m, b, c]]),
+        // Without the longest edge none is halved.
+        _ => out.push([a, b, c]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    fn sampling(max_edge: f64) -> Sampling {
+        Sampling { max_edge, chord_error: 0.01, corner_angle: 0.5 }
+    }
+
+    fn sheet(points: &[[f64; 3]], faces: &[&[u32]]) -> PolygonMesh {
+        PolygonMesh {
+            name: "sheet".into(),
+            points: points.iter().map(|&p| p.into()).collect(),
+            faces: faces.iter().map(|f| f.to_vec()).collect(),
+            notes: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn long_edges_are_halved_alike_on_both_sides_and_the_area_stays() {
+        let mesh = sheet(
+            &[
+                [0.0, 0.0, 0.0],
+                [7.0, 0.0, 1.0],
+                [6.5, 5.0, 0.0],
+                [-1.0, 4.0, 2.0],
+                [20.0, 3.0, 0.0],
+            ],
+            &[&[0, 1, 2], &[0, 2, 3], &[1, 4, 2]],
+        );
+        let coarse = mesh.surface(&sampling(100.0)).expect("three triangles");
+        let fine = mesh.surface(&sampling(0.7)).expect("many triangles");
+        assert_eq!(coarse.carrier.triangles.len(), 3);
+        assert!((coarse.area - fine.area).abs() < 1e-12 * coarse.area);
+        assert_eq!(fine.loops.len(), 1);
+        assert!((coarse.loops[0].length() - fine.loops[0].length()).abs() < 1e-12);
+        assert_eq!(coarse.loops[0].corners.len(), fine.loops[0].corners.len());
+        let mut uses: BTreeMap<(u32, u32), usize> = BTreeMap::new();
+        for t in &fine.carrier.triangles {
+            assert!(lengths(&fine.carrier.points, t).iter().all(|&l| l <= 0.7));
+            for k in 0..3 {
+                *uses.entry((t[k], t[(k + 1) % 3])).or_default() += 1;
+            }
+        }
+        assert!(uses.values().all(|&n| n == 1));
+        let edges = uses.keys().filter(|&&(a, b)| a < b || !uses.contains_key(&(b, a))).count();
+        let euler =
+            fine.carrier.points.len() as i64 - edges as i64 + fine.carrier.triangles.len() as i64;
+        assert_eq!(euler, 1);
+    }
+
+    #[test]
+    fn sampling_far_too_fine_is_refused_before_it_fills_the_memory() {
+        let mesh = sheet(&[[0.0, 0.0, 0.0], [1e6, 0.0, 0.0], [0.0, 1e6, 0.0]], &[&[0, 1, 2]]);
+        let message = mesh.surface(&sampling(0.5)).err().expect("an error").to_string();
+        assert!(message.contains("larger edge length"), "{message}");
+    }
+}
