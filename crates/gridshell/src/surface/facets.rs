@@ -13,6 +13,13 @@ impl Surface {
         let area = (0..carrier.triangles.len() as u32).map(|t| carrier.triangle_area(t)).sum();
         // No boundary turns by more than a half turn.
         let loops = boundary_loops(&carrier, PI, |_, _| None);
-        Surface { name: name.to_owned(), carrier, loops, shapes: Vec::new(), curves: Vec::new(), area }
+        Surface {
+            name: name.to_owned(),
+            carrier,
+            loops,
+            shapes: Vec::new(),
+            curves: Vec::new(),
+            area,
+        }
     }
 }

@@ -10,13 +10,15 @@ pub mod carrier;
 pub mod chain;
 pub mod chart;
 pub mod curve;
+mod ear;
 pub mod facets;
 pub mod locate;
-mod ear;
+
 pub mod model;
 pub mod nurbs;
 mod polygon;
 pub mod shape;
+mod size;
 
 pub use brep::Brep;
 pub use carrier::{Carrier, SurfacePoint};
