@@ -6,6 +6,7 @@ pub mod bubbles;
 pub mod degree;
 pub mod error;
 pub mod grid;
+pub mod io;
 pub mod job;
 pub mod math;
 pub mod mesh;

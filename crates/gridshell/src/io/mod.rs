@@ -1,0 +1,96 @@
+//! Readers and writers, one file per format, and surfaces by name.
+
+mod file;
+mod grid_file;
+mod obj;
+mod off;
+mod ply;
+mod scan;
+mod stl;
+mod weld;
+
+pub use grid_file::GridFile;
+
+use crate::error::{Error, Result};
+use crate::surface::{Model, PolygonMesh, builtin};
+use std::path::Path;
+
+/// Extensions of the mesh formats.
+const MESH_FORMATS: &str = "obj, ply, stl, off";
+/// Extensions of all formats that hold a surface.
+const SURFACE_FORMATS: &str = "obj, ply, stl, off";
+
+/// A built-in surface by its name, else the file at this path.
+///
+/// # Errors
+/// [`Error::Option`] listing the built-in names when there is neither; what [`load`] says of the file.
+pub fn open(name_or_path: &str) -> Result<Model> {
+    if let Some(model) = builtin::model(name_or_path) {
+        return Ok(model);
+    }
+    let path = Path::new(name_or_path);
+    if !path.exists() {
+        let names: Vec<&str> = builtin::ALL.iter().map(|b| b.name).collect();
+        return Err(Error::Option(format!(
+            "`{name_or_path}` is neither a file nor a built-in surface; the built-in ones are {}",
+            names.join(", ")
+        )));
+    }
+    load(path)
+}
+
+/// The surface in a file, by its extension.
+///
+/// # Errors
+/// [`Error::Io`], [`Error::Parse`] with line or entity, [`Error::Surface`] where the contents are no
+/// manifold surface, [`Error::Option`] listing the known extensions for an unknown one.
+pub fn load(path: &Path) -> Result<Model> {
+    match extension(path).as_str() {
+        "obj" | "ply" | "stl" | "off" => read_mesh(path).map(Model::Mesh),
+        _ => Err(unknown(path, SURFACE_FORMATS)),
+    }
+}
+
+/// The mesh in a file, by its extension: welded, oriented, without degenerate faces.
+///
+/// # Errors
+/// As [`load`].
+pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
+    match extension(path).as_str() {
+        "obj" => obj::read(path),
+        "ply" => ply::read(path),
+        "stl" => stl::read(path),
+        "off" => off::read(path),
+        _ => Err(unknown(path, MESH_FORMATS)),
+    }
+}
+
+/// Write a grid in the format of the path's extension. The file appears whole or not at all.
+///
+/// # Errors
+/// [`Error::Io`], or [`Error::Option`] listing the known extensions for an unknown one.
+pub fn write(path: &Path, grid: &GridFile) -> Result<()> {
+    let bytes = match extension(path).as_str() {
+        "obj" => obj::encode(grid),
+        "ply" => ply::encode(grid),
+        "stl" => stl::encode(grid),
+        "off" => off::encode(grid),
+        _ => return Err(unknown(path, MESH_FORMATS)),
+    };
+    file::replace(path, &bytes)
+}
+
+fn extension(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
+}
+
+fn unknown(path: &Path, known: &str) -> Error {
+    Error::Option(format!(
+        "{}: the extension `{}` is not one of {known}",
+        path.display(),
+        extension(path)
+    ))
+}
+
+#[cfg(test)]
+mod tests;

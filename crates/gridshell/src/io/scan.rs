@@ -1,0 +1,64 @@
+//! Reading text line by line: numbers, and errors that name the line.
+
+use crate::error::{Error, Result};
+use glam::DVec3;
+use std::path::Path;
+use std::str::FromStr;
+
+/// One line of a text file, for its words and for saying where something went wrong.
+#[derive(Clone, Copy)]
+pub(super) struct Line<'a> {
+    path: &'a Path,
+    /// From 1.
+    number: usize,
+    /// Without comment.
+    pub(super) text: &'a str,
+}
+
+/// The lines of a text that are not blank once their comment is cut off at `#`.
+pub(super) fn lines<'a>(path: &'a Path, text: &'a str) -> impl Iterator<Item = Line<'a>> {
+    let cut = |line: &'a str| line.split('#').next().unwrap_or_default().trim();
+    text.lines()
+        .enumerate()
+        .map(move |(k, line)| Line { path, number: k + 1, text: cut(line) })
+        .filter(|line| !line.text.is_empty())
+}
+
+impl<'a> Line<'a> {
+    /// What is wrong in this line.
+    pub(super) fn error(&self, message: impl Into<String>) -> Error {
+        Error::Parse {
+            path: self.path.to_owned(),
+            place: format!("line {}", self.number),
+            message: message.into(),
+        }
+    }
+
+    /// A number from a word of this line; `what` names it for the user.
+    pub(super) fn number<T: FromStr>(&self, word: Option<&str>, what: &str) -> Result<T> {
+        let Some(word) = word else {
+            return Err(self.error(format!("{what} is missing")));
+        };
+        word.parse().map_err(|_| self.error(format!("`{}` is not {what}", clip(word))))
+    }
+
+    /// Three coordinates from the next words.
+    pub(super) fn point(&self, words: &mut impl Iterator<Item = &'a str>) -> Result<DVec3> {
+        let mut p = [0.0; 3];
+        for (c, name) in p.iter_mut().zip(["x", "y", "z"]) {
+            *c = self.number(words.next(), &format!("a coordinate ({name})"))?;
+        }
+        let p = DVec3::from(p);
+        if p.is_finite() { Ok(p) } else { Err(self.error("a coordinate is not finite")) }
+    }
+}
+
+/// An error about the file as a whole, or a place in it that is no line.
+pub(super) fn error(path: &Path, place: impl Into<String>, message: impl Into<String>) -> Error {
+    Error::Parse { path: path.to_owned(), place: place.into(), message: message.into() }
+}
+
+/// The beginning of a word, so that garbage does not flood the screen.
+pub(super) fn clip(word: &str) -> String {
+    word.chars().take(40).filter(|c| !c.is_control()).collect()
+}

@@ -1,0 +1,137 @@
+//! Stereolithography (STL), binary and text: loose triangles, joined by [`weld`](super::weld). The binary
+//! form holds single precision only: far from the origin, coordinates lose digits (0.25 m at 4,000 km).
+
+use super::grid_file::GridFile;
+use super::{file, scan, weld};
+use crate::error::Result;
+use crate::surface::PolygonMesh;
+use glam::{DVec3, Vec3};
+use std::path::Path;
+
+/// Bytes of the binary head: 80 of text and the count.
+const HEAD: usize = 84;
+/// Bytes of a binary facet: normal, three corners, two spare bytes.
+const FACET: usize = 50;
+/// Single precision is taken to have lost shape where its step exceeds this share of the model's box.
+const COARSE: f64 = 1e-5;
+
+/// Read a binary or text STL file, told apart by its length: binary files may begin with `solid` too.
+///
+/// # Errors
+/// [`Error::Parse`](crate::Error::Parse) with line or facet; what [`weld`](super::weld) finds.
+pub(super) fn read(path: &Path) -> Result<PolygonMesh> {
+    let bytes = file::read(path)?;
+    let facets = bytes.get(80..HEAD).map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]) as usize);
+    let text_like = bytes.trim_ascii_start().starts_with(b"solid");
+    let mut mesh = match facets {
+        Some(n) if bytes.len() - HEAD >= n.saturating_mul(FACET) && (n > 0 || !text_like) => {
+            read_binary(path, &bytes[HEAD..], n)?
+        }
+        // A text file has no zero bytes; a cut-off binary one surely does.
+        _ if text_like && !bytes.contains(&0) => read_text(path, &bytes)?,
+        Some(n) => {
+            let whole = (bytes.len() - HEAD) / FACET;
+            let message =
+                format!("the file ends here, but its head promises {n} facets; export it again");
+            return Err(scan::error(path, format!("facet {}", whole + 1), message));
+        }
+        None => {
+            return Err(scan::error(
+                path,
+                "end of file",
+                "this is no STL file, or nothing but its beginning",
+            ));
+        }
+    };
+    mesh.name = file::stem(path);
+    note_precision(&mut mesh);
+    weld::weld(path, mesh)
+}
+
+fn read_binary(path: &Path, bytes: &[u8], facets: usize) -> Result<PolygonMesh> {
+    let mut mesh = PolygonMesh::default();
+    for (k, facet) in bytes.chunks_exact(FACET).take(facets).enumerate() {
+        let number =
+            |i: usize| f32::from_le_bytes([facet[i], facet[i + 1], facet[i + 2], facet[i + 3]]);
+        // The first three numbers are the normal, which follows from the corners.
+        let corners =
+            [12, 24, 36].map(|i| Vec3::new(number(i), number(i + 4), number(i + 8)).as_dvec3());
+        if !corners.iter().all(|c| c.is_finite()) {
+            return Err(scan::error(
+                path,
+                format!("facet {}", k + 1),
+                "a coordinate is not finite",
+            ));
+        }
+        push_facet(&mut mesh, corners);
+    }
+    Ok(mesh)
+}
+
+fn read_text(path: &Path, bytes: &[u8]) -> Result<PolygonMesh> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut mesh = PolygonMesh::default();
+    let mut corners = Vec::new();
+    for line in scan::lines(path, &text) {
+        let mut words = line.text.split_ascii_whitespace();
+        match words.next() {
+            Some("vertex") => corners.push(line.point(&mut words)?),
+            Some("endloop") => {
+                let Ok(facet) = <[DVec3; 3]>::try_from(std::mem::take(&mut corners)) else {
+                    return Err(line.error("a facet must have three vertices"));
+                };
+                push_facet(&mut mesh, facet);
+            }
+            Some("solid" | "facet" | "outer" | "endfacet" | "endsolid") => {}
+            Some(word) => {
+                return Err(line.error(format!("`{}` is no word of STL", scan::clip(word))));
+            }
+            None => {}
+        }
+    }
+    if !corners.is_empty() {
+        return Err(scan::error(
+            path,
+            "end of file",
+            "the file ends within a facet; export it again",
+        ));
+    }
+    Ok(mesh)
+}
+
+fn push_facet(mesh: &mut PolygonMesh, corners: [DVec3; 3]) {
+    let first = mesh.points.len() as u32;
+    mesh.points.extend(corners);
+    mesh.faces.push(vec![first, first + 1, first + 2]);
+}
+
+fn note_precision(mesh: &mut PolygonMesh) {
+    let (low, high) = weld::bounds(&mesh.points);
+    let step = low.abs().max(high.abs()).max_element() * f64::from(f32::EPSILON);
+    if step > COARSE * (high - low).max_element() {
+        mesh.notes.push(format!(
+            "STL holds single precision: this far from the origin coordinates are rounded to {step:.2} m; \
+             use OBJ, or move the model to the origin before export"
+        ));
+    }
+}
+
+/// The grid as binary STL; the format has no place for members and the header lines.
+pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
+    let mut out = vec![b' '; 80];
+    // It must not begin with `solid`, which marks the text form.
+    let title = b"gridshell triangles, unit metres";
+    out[..title.len()].copy_from_slice(title);
+    out.extend((grid.triangles.len() as u32).to_le_bytes());
+    for t in grid.triangles {
+        let corners = t.map(|v| grid.xyz[v as usize]);
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
+        for p in [normal, corners[0], corners[1], corners[2]] {
+            for c in p.as_vec3().to_array() {
+                out.extend(c.to_le_bytes());
+            }
+        }
+        out.extend([0, 0]);
+    }
+    out
+}

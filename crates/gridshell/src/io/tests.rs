@@ -1,0 +1,239 @@
+//! Reading, welding and writing meshes, over files written to the system's temporary folder.
+
+use super::*;
+use glam::DVec3;
+use std::fs;
+use std::path::PathBuf;
+
+/// A file of this name that is removed at the end of the test.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new(name: &str, contents: impl AsRef<[u8]>) -> Scratch {
+        let path = std::env::temp_dir().join(format!("gridshell-{}-{name}", std::process::id()));
+        fs::write(&path, contents).unwrap();
+        Scratch(path)
+    }
+
+    fn read(&self) -> Result<PolygonMesh> {
+        read_mesh(&self.0)
+    }
+
+    fn refused(&self) -> String {
+        self.read().expect_err("an error").to_string()
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.0);
+    }
+}
+
+/// A unit square of two triangles and a quad beside it, at coordinates that single precision cannot hold.
+const FAR: &str = "v 500000.0000000001 4000000.1234567 0.1\nv 500001 4000000 0\nv 500001 4000001 0\n\
+                   v 500000 4000001 0\nv 500002 4000000 0\nv 500002 4000001 0\n\
+                   f 1 2 3\nf -6/1/1 -4//2 -3\nf 2 5 6 3\nl 1 2\n";
+
+#[test]
+fn obj_keeps_far_coordinates_and_understands_negative_indices() {
+    let mesh = Scratch::new("far.obj", FAR).read().unwrap();
+    assert_eq!(mesh.points[0], DVec3::new(500000.0000000001, 4000000.1234567, 0.1));
+    assert_eq!(mesh.faces, vec![vec![0, 1, 2], vec![0, 2, 3], vec![1, 4, 5, 2]]);
+}
+
+#[test]
+fn grids_read_back_exactly_from_every_format() {
+    let mesh = Scratch::new("source.obj", FAR).read().unwrap();
+    let triangles = [[0, 1, 2], [0, 2, 3], [1, 4, 5], [1, 5, 2]];
+    let edges = [(0, 1), (1, 2), (2, 0)];
+    let header = ["gridshell test, seed 1".to_owned(), "unit: metre".to_owned()];
+    for extension in ["obj", "ply", "off", "stl"] {
+        // Single precision holds small coordinates in eighths.
+        let near = |p: &DVec3| ((*p - DVec3::new(500000.0, 4000000.0, 0.0)) * 8.0).round() / 8.0;
+        let xyz: Vec<DVec3> = if extension == "stl" {
+            mesh.points.iter().map(near).collect()
+        } else {
+            mesh.points.clone()
+        };
+        let file = Scratch::new(&format!("round.{extension}"), "");
+        write(
+            &file.0,
+            &GridFile { xyz: &xyz, triangles: &triangles, edges: &edges, header: &header },
+        )
+        .unwrap();
+        let back = file.read().unwrap();
+        assert_eq!(back.points.len(), xyz.len(), "{extension}");
+        assert_eq!(back.faces.len(), 4, "{extension}");
+        for (face, t) in back.faces.iter().zip(&triangles) {
+            let corners: Vec<DVec3> = face.iter().map(|&v| back.points[v as usize]).collect();
+            assert_eq!(corners, t.map(|v| xyz[v as usize]), "{extension}");
+        }
+        let text = String::from_utf8_lossy(&fs::read(&file.0).unwrap()).into_owned();
+        assert!(text.contains("metre"), "{extension} states the unit");
+        if extension == "obj" {
+            assert!(text.contains("\nl 3 1\n"));
+        }
+    }
+}
+
+/// A PLY of the unit square as one quad, with a colour per vertex, in binary.
+fn binary_ply(big: bool) -> Vec<u8> {
+    let order = if big { "big" } else { "little" };
+    let mut bytes = format!(
+        "ply\nformat binary_{order}_endian 1.0\ncomment x\nelement vertex 4\nproperty double x\n\
+         property float y\nproperty double z\nproperty uchar red\nelement face 1\n\
+         property list uchar int vertex_indices\nend_header\n"
+    )
+    .into_bytes();
+    let order = |mut b: Vec<u8>| {
+        if big {
+            b.reverse();
+        }
+        b
+    };
+    for [x, y] in [[0.1, 0.0_f32], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+        bytes.extend(order(f64::to_le_bytes(f64::from(x)).to_vec()));
+        bytes.extend(order(y.to_le_bytes().to_vec()));
+        bytes.extend(order(7.25_f64.to_le_bytes().to_vec()));
+        bytes.push(255);
+    }
+    bytes.push(4);
+    for i in [0_i32, 1, 2, 3] {
+        bytes.extend(order(i.to_le_bytes().to_vec()));
+    }
+    bytes
+}
+
+#[test]
+fn ply_reads_both_byte_orders_and_names_the_vertex_it_is_cut_at() {
+    for big in [false, true] {
+        let bytes = binary_ply(big);
+        let mesh = Scratch::new(&format!("{big}.ply"), &bytes).read().unwrap();
+        assert_eq!(mesh.points[2], DVec3::new(1.0, 1.0, 7.25));
+        assert_eq!(mesh.faces, vec![vec![0, 1, 2, 3]]);
+        let cut = Scratch::new(&format!("cut-{big}.ply"), &bytes[..bytes.len() - 50]).refused();
+        assert!(cut.contains("vertex 2"), "{cut}");
+    }
+}
+
+#[test]
+fn promises_of_huge_counts_cost_no_memory() {
+    let head = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty double x\n\
+                property double y\nproperty double z\nend_header\n";
+    assert!(Scratch::new("huge.ply", head).refused().contains("vertex 0"));
+    let empty = "ply\nformat ascii 1.0\nelement nothing 18446744073709551615\nend_header\n";
+    assert!(Scratch::new("nothing.ply", empty).refused().contains("no faces"));
+    assert!(
+        Scratch::new("huge.off", "OFF\n4000000000 4000000000 0\n0 0 0\n")
+            .refused()
+            .contains("ends")
+    );
+    assert!(
+        Scratch::new("long.off", "OFF\n1 1 0\n0 0 0\n4000000000 0").refused().contains("line 4")
+    );
+    let mut stl = b"solid but binary".to_vec();
+    stl.resize(80, b' ');
+    stl.extend(4_000_000_000_u32.to_le_bytes());
+    stl.resize(84 + 75, 0);
+    assert!(Scratch::new("huge.stl", stl).refused().contains("facet 2"));
+}
+
+#[test]
+fn bad_input_names_its_line() {
+    for (name, contents, line) in [
+        ("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "line 4"),
+        ("zero.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", "line 4"),
+        ("word.obj", "# head\nv 0 0 0\nv 1 x 0\n", "line 3"),
+        ("inf.obj", "v 0 0 inf\n", "line 1"),
+        ("continued.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\n 2 3\nf 1 2\n", "line 6"),
+        ("short.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2", "line 5"),
+        ("index.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3", "line 5"),
+        ("text.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n", "line 4"),
+        (
+            "type.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty quad x\nend_header\n",
+            "line 4",
+        ),
+    ] {
+        let message = Scratch::new(name, contents).refused();
+        assert!(message.contains(line), "{name}: {message}");
+    }
+    assert!(Scratch::new("empty.obj", "").refused().contains("no faces"));
+    assert!(Scratch::new("empty.stl", "").refused().contains("no STL"));
+}
+
+#[test]
+fn text_stl_is_welded_to_one_piece() {
+    let facet = |c: [[i32; 3]; 3]| {
+        let v = c.map(|[x, y, z]| format!("vertex {x} {y} {z}\n")).concat();
+        format!("facet normal 0 0 0\nouter loop\n{v}endloop\nendfacet\n")
+    };
+    // The second facet faces the other way.
+    let text = format!(
+        "solid roof\n{}{}endsolid\n",
+        facet([[0, 0, 0], [1, 0, 0], [0, 1, 0]]),
+        facet([[1, 0, 0], [0, 1, 0], [1, 1, 0]])
+    );
+    let mesh = Scratch::new("text.stl", text).read().unwrap();
+    assert_eq!((mesh.points.len(), mesh.faces.len()), (4, 2));
+    assert!(mesh.notes.iter().any(|n| n.contains("merged 2")), "{:?}", mesh.notes);
+    assert!(mesh.notes.iter().any(|n| n.contains("turned 1")), "{:?}", mesh.notes);
+    for face in &mesh.faces {
+        let [a, b, c] = [0, 1, 2].map(|k| mesh.points[face[k] as usize]);
+        assert!((b - a).cross(c - a).z > 0.0, "open surfaces face upwards");
+    }
+}
+
+#[test]
+fn closed_mesh_turned_inside_out_is_turned_back() {
+    let tetrahedron = "v 0 0 9\nv 1 0 9\nv 0 1 9\nv 0 0 10\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
+    let mesh = Scratch::new("closed.obj", tetrahedron).read().unwrap();
+    let centre = mesh.points.iter().sum::<DVec3>() / 4.0;
+    for face in &mesh.faces {
+        let [a, b, c] = [0, 1, 2].map(|k| mesh.points[face[k] as usize]);
+        assert!((b - a).cross(c - a).dot(a - centre) > 0.0);
+    }
+}
+
+#[test]
+fn edge_of_three_faces_is_refused_with_its_place() {
+    let book = "v 0 0 0\nv 0 1 0\nv 1 0.5 0\nv -1 0.5 0\nv 0 0.5 1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n";
+    let message = Scratch::new("book.obj", book).refused();
+    assert!(message.contains("(0, 0, 0)") && message.contains("(0, 1, 0)"), "{message}");
+}
+
+#[test]
+fn moebius_strip_is_refused() {
+    // Five quads in a ring; the last one joins the first upside down.
+    let mut text = String::new();
+    for k in 0..5 {
+        text += &format!("v {k} 0 {k}\nv {k} 1 {}\n", k * k);
+    }
+    for k in 0..4 {
+        let a = 2 * k + 1;
+        text += &format!("f {} {} {} {}\n", a, a + 1, a + 3, a + 2);
+    }
+    text += "f 9 10 1 2\n";
+    assert!(Scratch::new("strip.obj", text).refused().contains("one side"));
+}
+
+#[test]
+fn repeated_degenerate_and_unused_parts_go_and_touching_fans_part() {
+    let text = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv -1 0 0\nv -1 -1 0\nv 1 1 0.00000000001\n\
+                f 2 3 4\nf 3 4 2\nf 2 2 3\nf 4 7 4\nf 2 5 6\n";
+    let mesh = Scratch::new("mixed.obj", text).read().unwrap();
+    assert_eq!((mesh.points.len(), mesh.faces.len()), (6, 2), "{:?}", mesh.notes);
+    for told in ["merged 1", "2 degenerate", "1 repeated", "2 separate", "parted 1"] {
+        assert!(mesh.notes.iter().any(|n| n.contains(told)), "{told}: {:?}", mesh.notes);
+    }
+}
+
+#[test]
+fn unknown_names_and_extensions_are_answered_with_the_known_ones() {
+    let message = open("great-curt").err().expect("an error").to_string();
+    assert!(message.contains("great-court") && message.contains("facade"), "{message}");
+    let message = Scratch::new("roof.xyz", "").refused();
+    assert!(message.contains("obj, ply, stl, off"), "{message}");
+    assert!(matches!(open("hexagon"), Ok(Model::Brep(_))));
+}
