@@ -100,8 +100,8 @@ impl Grid {
         SHARE * surface.loops[at.chain as usize].wrap(gap)
     }
 
-    /// The grid of these nodes and panels (counter-clockwise seen from outside), each node with the place
-    /// of `surface` nearest to it; positions stay as they are.
+    /// The grid of these nodes and panels (oriented alike), each node with the place of `surface` nearest to
+    /// it; positions stay as they are. Panels that look inwards are turned to look outwards, all together.
     ///
     /// # Errors
     /// [`Error::Surface`] when the panels are not a manifold, or the grid has a boundary and the surface
@@ -116,14 +116,22 @@ impl Grid {
                 locator.nearest(x).map(Place::Interior)
             }
         };
-        let places =
-            xyz.iter().enumerate().map(place).collect::<Option<Vec<_>>>().ok_or_else(|| {
-                Error::Surface(
-                    "the grid has a boundary but the surface has none: is it the right surface?"
-                        .into(),
-                )
-            })?;
-        Ok(Grid { mesh, places, xyz })
+        let found: Option<Vec<_>> = xyz.iter().enumerate().map(place).collect();
+        let places = found.ok_or_else(|| {
+            Error::Surface(
+                "the grid has a boundary but the surface has none: is it the right surface?".into(),
+            )
+        })?;
+        let outwards = |t: &[u32; 3]| {
+            let p = t.map(|v| xyz[v as usize]);
+            let normal = surface.carrier.normal(&places[t[0] as usize].surface_point(surface));
+            (p[1] - p[0]).cross(p[2] - p[0]).dot(normal)
+        };
+        if panels.iter().map(outwards).sum::<f64>() >= 0.0 {
+            return Ok(Grid { mesh, places, xyz });
+        }
+        let turned: Vec<_> = panels.iter().map(|&[a, b, c]| [a, c, b]).collect();
+        Ok(Grid { mesh: Mesh::from_triangles(xyz.len(), &turned)?, places, xyz })
     }
 
     /// A grid that is its own surface: what can be measured when the design surface is not known.

@@ -11,6 +11,7 @@ pub mod job;
 pub mod math;
 pub mod mesh;
 pub mod recipe;
+pub mod run;
 pub mod stages;
 pub mod surface;
 

@@ -17,6 +17,7 @@ pub mod model;
 pub mod nurbs;
 mod polygon;
 pub mod shape;
+mod size;
 
 pub use brep::Brep;
 pub use carrier::{Carrier, SurfacePoint};

@@ -174,6 +174,15 @@ fn a_panel_turned_over_is_folded() {
 }
 
 #[test]
+fn a_grid_read_inside_out_is_turned() {
+    let (grid, surface) = wheel(6, 0.1);
+    let inwards: Vec<[u32; 3]> = grid.mesh.triangles().map(|[a, b, c]| [a, c, b]).collect();
+    let read = Grid::from_panels(grid.xyz.clone(), &inwards, &surface).expect("a disc");
+    assert_eq!(measure(&read, &surface, 1.0, &OPTIONS).folded_panels, 0);
+    assert_eq!(read.mesh.triangles().next(), grid.mesh.triangles().next());
+}
+
+#[test]
 fn a_member_between_two_sheets_is_a_bridge_and_one_at_a_concave_border_is_not() {
     // A strip in the shape of a U, 10 long in each leg, the legs 0.4 apart.
     let mut xyz = Vec::new();
