@@ -3,6 +3,7 @@
 
 pub mod error;
 pub mod grid;
+pub mod io;
 pub mod job;
 pub mod math;
 pub mod mesh;

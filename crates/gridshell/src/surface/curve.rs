@@ -12,6 +12,13 @@ pub enum Curve {
     Nurbs(NurbsCurve),
     /// A curve drawn in the parameters of a patch: the image of uv(t) (and its derivative).
     OnShape(Arc<Shape>, fn(f64) -> [DVec2; 2]),
+    /// The image of the straight line from the first to the second (u, v) over [0, 1]: sides and seams.
+    UvLine {
+        /// The patch it lies on.
+        shape: Arc<Shape>,
+        /// Parameters at 0 and at 1.
+        ends: [DVec2; 2],
+    },
 }
 
 impl Curve {
@@ -27,6 +34,11 @@ impl Curve {
             Curve::OnShape(shape, uv) => {
                 let [p, d] = uv(t);
                 let j = shape.jet(p);
+                [j.point, j.du * d.x + j.dv * d.y]
+            }
+            Curve::UvLine { shape, ends } => {
+                let d = ends[1] - ends[0];
+                let j = shape.jet(ends[0] + d * t);
                 [j.point, j.du * d.x + j.dv * d.y]
             }
         }

@@ -1,7 +1,7 @@
 //! What a file or a built-in name gives, before it is sampled for an edge length.
 
-use super::{Brep, Surface};
-use crate::error::Result;
+use super::{Brep, Surface, tessellate};
+use crate::error::{Error, Result};
 use glam::DVec3;
 
 /// A design surface as it was read: independent of the edge length.
@@ -42,7 +42,12 @@ impl Model {
     ///
     /// # Errors
     /// [`Error::Surface`](crate::Error::Surface) where the model is no manifold surface.
-    pub fn surface(&self, _sampling: &Sampling) -> Result<Surface> {
-        unimplemented!()
+    pub fn surface(&self, sampling: &Sampling) -> Result<Surface> {
+        match self {
+            Model::Brep(brep) => tessellate(brep, sampling),
+            Model::Mesh(mesh) => {
+                Err(Error::Surface(format!("{}: meshes are not supported yet", mesh.name)))
+            }
+        }
     }
 }
