@@ -6,10 +6,21 @@
 use super::trim::Node;
 use glam::DVec2;
 use spade::handles::FixedVertexHandle;
-use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
+use spade::{
+    ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation,
+};
 
 /// A vertex of the Delaunay triangulation: where it lies in the scaled plane.
 struct Site(Point2<f64>);
+
+type Plane = ConstrainedDelaunayTriangulation<Site>;
+
+fn site(node: &Node, scale: DVec2) -> Site {
+    let p = node.uv * scale;
+    // The triangulation refuses numbers that are all but zero.
+    let snap = |x: f64| if x.abs() < 1e-60 { 0.0 } else { x };
+    Site(Point2::new(snap(p.x), snap(p.y)))
+}
 
 impl HasPosition for Site {
     type Scalar = f64;
@@ -23,7 +34,8 @@ impl HasPosition for Site {
 pub(super) type Rim = [u32; 2];
 
 /// Triangulate the inside of `rims` over `nodes`. `scale` turns (u, v) into lengths. Triangles are
-/// counter-clockwise in (u, v). Nodes at the same (u, v) are one: the first.
+/// counter-clockwise in (u, v). Nodes at the same (u, v) are one: the first. Nodes of the rims stand first
+/// among `nodes`; later ones that would lie right on a rim are left out.
 ///
 /// # Errors
 /// The node near which polygons cross.
@@ -32,14 +44,12 @@ pub(super) fn triangles(
     rims: &[Rim],
     scale: DVec2,
 ) -> Result<Vec<[u32; 3]>, usize> {
-    let mut cdt = ConstrainedDelaunayTriangulation::<Site>::new();
-    let mut handles: Vec<FixedVertexHandle> = Vec::with_capacity(nodes.len());
+    let mut cdt = Plane::new();
+    let bounds = rims.iter().flatten().max().map_or(0, |&last| last as usize + 1);
+    let mut handles: Vec<FixedVertexHandle> = Vec::with_capacity(bounds);
     let mut first: Vec<u32> = Vec::with_capacity(nodes.len());
-    for (i, n) in nodes.iter().enumerate() {
-        let p = n.uv * scale;
-        // The triangulation refuses numbers that are all but zero.
-        let snap = |x: f64| if x.abs() < 1e-60 { 0.0 } else { x };
-        let handle = cdt.insert(Site(Point2::new(snap(p.x), snap(p.y)))).map_err(|_| i)?;
+    for (i, n) in nodes[..bounds].iter().enumerate() {
+        let handle = cdt.insert(site(n, scale)).map_err(|_| i)?;
         if handle.index() == first.len() {
             first.push(i as u32);
         }
@@ -64,6 +74,18 @@ pub(super) fn triangles(
         }
         let (from, to) = (from.index() as u32, to.index() as u32);
         uses.push((from.min(to), from.max(to)));
+    }
+    for (i, n) in nodes.iter().enumerate().skip(bounds) {
+        let site = site(n, scale);
+        let on_rim = match cdt.locate(site.0) {
+            PositionInTriangulation::OnEdge(e) => cdt.is_constraint_edge(e.as_undirected()),
+            PositionInTriangulation::OnVertex(_) => true,
+            _ => false,
+        };
+        if !on_rim {
+            cdt.insert(site).map_err(|_| i)?;
+            first.push(i as u32);
+        }
     }
     uses.sort_unstable();
     let odd = |a: usize, b: usize| {
