@@ -6,6 +6,7 @@ mod obj;
 mod off;
 mod ply;
 mod scan;
+pub mod step;
 mod stl;
 mod weld;
 
@@ -18,7 +19,7 @@ use std::path::Path;
 /// Extensions of the mesh formats.
 const MESH_FORMATS: &str = "obj, ply, stl, off";
 /// Extensions of all formats that hold a surface.
-const SURFACE_FORMATS: &str = "obj, ply, stl, off";
+const SURFACE_FORMATS: &str = "step, stp, obj, ply, stl, off";
 
 /// A built-in surface by its name, else the file at this path.
 ///
@@ -46,6 +47,7 @@ pub fn open(name_or_path: &str) -> Result<Model> {
 /// manifold surface, [`Error::Option`] listing the known extensions for an unknown one.
 pub fn load(path: &Path) -> Result<Model> {
     match extension(path).as_str() {
+        "step" | "stp" => step::read(path).map(Model::Brep),
         "obj" | "ply" | "stl" | "off" => read_mesh(path).map(Model::Mesh),
         _ => Err(unknown(path, SURFACE_FORMATS)),
     }

@@ -22,7 +22,9 @@ pub struct Carrier {
     pub normals: Vec<DVec3>,
     /// Patch of each triangle.
     pub patch: Vec<u32>,
-    /// Patch parameters at the three corners of each triangle; empty where the input was a mesh.
+    /// Patch parameters at the three corners of each triangle; empty where the input was a mesh. At a pole
+    /// of the patch one parameter means nothing: it is NaN, and the other corners' count (see
+    /// [`uv_at`](Carrier::uv_at)).
     pub uv: Vec<[DVec2; 3]>,
     /// Gradients of the three barycentric coordinates over each triangle, 1/m.
     gradients: Vec<[DVec3; 3]>,
@@ -75,7 +77,14 @@ impl Carrier {
     /// Patch parameters at `p`. Only where the input had patches.
     pub fn uv_at(&self, p: &SurfacePoint) -> DVec2 {
         let c = &self.uv[p.triangle as usize];
-        c[0] * p.bary[0] + c[1] * p.bary[1] + c[2] * p.bary[2]
+        let uv = c[0] * p.bary[0] + c[1] * p.bary[1] + c[2] * p.bary[2];
+        if uv.is_finite() {
+            return uv;
+        }
+        DVec2::new(
+            mean_beside_pole(c.map(|c| c.x), p.bary),
+            mean_beside_pole(c.map(|c| c.y), p.bary),
+        )
     }
 
     /// Unit normal at `p`, interpolated from the vertices: continuous over the carrier.
@@ -198,6 +207,21 @@ impl SurfacePoint {
     }
 }
 
+/// Mean of the corners that have a value, weighted by their coordinates: along a ray from a pole the
+/// parameter stays the same, so neighbouring triangles agree on their common edge.
+fn mean_beside_pole(value: [f64; 3], bary: [f64; 3]) -> f64 {
+    let (mut sum, mut weight) = (0.0, 0.0);
+    for k in 0..3 {
+        if !value[k].is_nan() {
+            // At the pole itself any value will do.
+            let b = bary[k].max(1e-300);
+            sum += value[k] * b;
+            weight += b;
+        }
+    }
+    sum / weight
+}
+
 /// Gradients of the barycentric coordinates of a triangle; zero where it has no area.
 fn gradients(p: [DVec3; 3]) -> [DVec3; 3] {
     let n = (p[1] - p[0]).cross(p[2] - p[0]);
@@ -209,7 +233,7 @@ fn gradients(p: [DVec3; 3]) -> [DVec3; 3] {
 }
 
 /// Triangle across each edge, by sorting the edges.
-fn adjacency(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
+pub(super) fn adjacency(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
     let mut edges: Vec<(u32, u32, u32, u8)> = Vec::with_capacity(triangles.len() * 3);
     for (t, c) in triangles.iter().enumerate() {
         for k in 0..3 {

@@ -106,6 +106,22 @@ impl Chain {
         }
     }
 
+    /// Distance of `xyz` from the exact boundary curve of the segment at `s`.
+    pub fn deviation(&self, surface: &Surface, s: f64, xyz: DVec3) -> f64 {
+        let (k, f) = self.locate(s);
+        let n = self.segments.len();
+        let vertex = |k: usize| surface.carrier.points[self.vertices[k % n] as usize].distance(xyz);
+        // Vertices count as they stand: curves of neighbouring edges need not quite meet in them.
+        let ends = vertex(k).min(vertex(k + 1));
+        let seg = &self.segments[k];
+        let Some(curve) = surface.curves.get(seg.curve as usize) else {
+            return ends.min(self.xyz(&surface.carrier, s).distance(xyz));
+        };
+        let [t0, t1] = seg.t;
+        let foot = curve.project(t0 + (t1 - t0) * f, [t0.min(t1), t0.max(t1)], xyz).1;
+        ends.min(foot.distance(xyz))
+    }
+
     /// Mark as corners the vertices where the chain turns by more than `corner_angle` radians, between
     /// the exact tangents where segments have curves and between the segments themselves elsewhere. A
     /// chain with corners is turned to begin at one.

@@ -2,7 +2,7 @@
 
 use super::nurbs::NurbsCurve;
 use super::shape::Shape;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
 /// The exact geometry of one edge.
@@ -12,6 +12,13 @@ pub enum Curve {
     Nurbs(NurbsCurve),
     /// A curve drawn in the parameters of a patch: the image of uv(t), which is a spline in the plane z = 0.
     OnShape(Arc<Shape>, NurbsCurve),
+    /// The image of the straight line from the first to the second (u, v) over [0, 1]: sides and seams.
+    UvLine {
+        /// The patch it lies on.
+        shape: Arc<Shape>,
+        /// Parameters at 0 and at 1.
+        ends: [DVec2; 2],
+    },
 }
 
 impl Curve {
@@ -27,6 +34,11 @@ impl Curve {
             Curve::OnShape(shape, uv) => {
                 let [p, d] = uv.jet(t);
                 let j = shape.jet(p.truncate());
+                [j.point, j.du * d.x + j.dv * d.y]
+            }
+            Curve::UvLine { shape, ends } => {
+                let d = ends[1] - ends[0];
+                let j = shape.jet(ends[0] + d * t);
                 [j.point, j.du * d.x + j.dv * d.y]
             }
         }

@@ -4,6 +4,7 @@
 //! behind it, where the input had them. Boundary loops are [`Chain`]s of carrier vertices with the
 //! exact curves behind them. Metres throughout.
 
+mod area;
 pub mod brep;
 pub mod builtin;
 pub mod carrier;
@@ -12,13 +13,21 @@ pub mod chart;
 pub mod curve;
 mod ear;
 pub mod facets;
+mod fill;
 pub mod locate;
-
 pub mod model;
 pub mod nurbs;
+mod orient;
 mod polygon;
+pub mod project;
+mod refine;
+mod sample;
+mod seam;
 pub mod shape;
 mod size;
+pub mod tessellate;
+mod trim;
+mod weave;
 
 pub use brep::Brep;
 pub use carrier::{Carrier, SurfacePoint};
@@ -27,6 +36,7 @@ pub use curve::Curve;
 pub use locate::Locator;
 pub use model::{Model, PolygonMesh, Sampling};
 pub use shape::Shape;
+pub use tessellate::tessellate;
 
 use glam::DVec3;
 
@@ -61,6 +71,15 @@ impl Surface {
         match self.shapes.get(self.carrier.patch[t] as usize) {
             Some(shape) => shape.point(self.carrier.uv_at(point)),
             None => self.carrier.xyz(point),
+        }
+    }
+
+    /// Distance of `xyz` from the exact surface near the carrier point `point`: to the foot on the patch of
+    /// that point's triangle. On a mesh, to the carrier point.
+    pub fn deviation(&self, point: &SurfacePoint, xyz: DVec3) -> f64 {
+        match self.shapes.get(self.carrier.patch[point.triangle as usize] as usize) {
+            Some(shape) => shape.project(self.carrier.uv_at(point), xyz).1.distance(xyz),
+            None => self.carrier.xyz(point).distance(xyz),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a file or a built-in name gives, before it is sampled for an edge length.
 
-use super::{Brep, Surface};
+use super::{Brep, Surface, tessellate};
 use crate::error::Result;
 use glam::DVec3;
 
@@ -44,7 +44,7 @@ impl Model {
     /// [`Error::Surface`](crate::Error::Surface) where the model is no manifold surface.
     pub fn surface(&self, sampling: &Sampling) -> Result<Surface> {
         match self {
-            Model::Brep(_) => unimplemented!(),
+            Model::Brep(brep) => tessellate(brep, sampling),
             Model::Mesh(mesh) => mesh.surface(sampling),
         }
     }

@@ -1,7 +1,10 @@
 //! Exact patch geometry: a mapping from (u, v) to xyz with first derivatives.
 
-use super::nurbs::NurbsSurface;
+use super::nurbs::{NurbsSurface, into_domain};
 use glam::{DVec2, DVec3};
+
+/// A side whose points lie within this share of the patch's size is one point: a pole.
+const POLE_SHARE: f64 = 1e-6;
 
 /// Value and first derivatives of a patch at one (u, v).
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +26,26 @@ pub enum Shape {
     Height(fn(f64, f64) -> [f64; 3]),
 }
 
+/// A side of a patch that is a single point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pole {
+    /// The parameter that is fixed on this side: 0 for u, 1 for v.
+    pub fixed: usize,
+    /// Its value there.
+    pub value: f64,
+    /// Whether it is the upper end of that parameter's domain.
+    pub upper: bool,
+    /// The point.
+    pub point: DVec3,
+}
+
+impl Jet {
+    /// Unit normal along du x dv; zero at a pole.
+    pub fn normal(&self) -> DVec3 {
+        self.du.cross(self.dv).normalize_or_zero()
+    }
+}
+
 impl Shape {
     /// Position at `uv`.
     pub fn point(&self, uv: DVec2) -> DVec3 {
@@ -42,5 +65,77 @@ impl Shape {
                 }
             }
         }
+    }
+
+    /// First and last parameter in u and in v; infinite for a height function.
+    pub fn domain(&self) -> [[f64; 2]; 2] {
+        match self {
+            Shape::Nurbs(s) => s.domain(),
+            Shape::Height(_) => [[f64::NEG_INFINITY, f64::INFINITY]; 2],
+        }
+    }
+
+    /// Whether the patch closes on itself in u and in v. There, parameters may run past the domain.
+    pub fn closed(&self) -> [bool; 2] {
+        match self {
+            Shape::Nurbs(s) => s.closed(),
+            Shape::Height(_) => [false; 2],
+        }
+    }
+
+    /// The period in u and in v; 0 where the patch does not close.
+    pub fn period(&self) -> DVec2 {
+        let (domain, closed) = (self.domain(), self.closed());
+        let period = |k: usize| if closed[k] { domain[k][1] - domain[k][0] } else { 0.0 };
+        DVec2::new(period(0), period(1))
+    }
+
+    /// `uv` clamped to the domain in the directions that do not close.
+    pub fn clamp(&self, uv: DVec2) -> DVec2 {
+        let (domain, closed) = (self.domain(), self.closed());
+        let clamp = |k: usize, t: f64| {
+            if closed[k] { t } else { into_domain(domain[k][0], domain[k][1], false, t) }
+        };
+        DVec2::new(clamp(0, uv.x), clamp(1, uv.y))
+    }
+
+    /// The sides that are a single point.
+    pub fn poles(&self) -> Vec<Pole> {
+        let Shape::Nurbs(s) = self else { return Vec::new() };
+        let domain = s.domain();
+        let size = {
+            let lo = s.points.iter().fold(DVec3::MAX, |a, &b| a.min(b));
+            let hi = s.points.iter().fold(DVec3::MIN, |a, &b| a.max(b));
+            lo.distance(hi)
+        };
+        let mut poles = Vec::new();
+        for fixed in 0..2 {
+            let along = self.lattice(1 - fixed);
+            for upper in [false, true] {
+                let value = domain[fixed][usize::from(upper)];
+                let at = |t: f64| {
+                    let uv = if fixed == 0 { [value, t] } else { [t, value] };
+                    self.point(DVec2::from(uv))
+                };
+                let point = at(along[0]);
+                if along.iter().all(|&t| at(t).distance(point) <= POLE_SHARE * size) {
+                    poles.push(Pole { fixed, value, upper, point });
+                }
+            }
+        }
+        poles
+    }
+
+    /// Parameters of direction `k` that tell the patch's shape: several in each knot span.
+    pub fn lattice(&self, k: usize) -> Vec<f64> {
+        let Shape::Nurbs(s) = self else { return Vec::new() };
+        let breaks = s.breaks(k);
+        // A plane needs few; a patch of many spans is well told by a few in each.
+        let each = (32 / (breaks.len() - 1)).clamp(2, 8);
+        let mut lattice = vec![breaks[0]];
+        for w in breaks.windows(2) {
+            lattice.extend((1..=each).map(|i| w[0] + (w[1] - w[0]) * i as f64 / each as f64));
+        }
+        lattice
     }
 }

@@ -1,0 +1,208 @@
+//! Points for the inside of a face: candidates in close rows over (u, v), thinned by their distance in space.
+//!
+//! A candidate is taken when nothing taken before lies nearer than the spacing wanted there. Distances are
+//! measured in space, so a pole or a stretched parameterisation does not crowd its triangles; sheets that
+//! face apart do not see each other. The spacing follows the bending of the patch and grows gently away
+//! from short boundary pieces.
+
+use super::model::Sampling;
+use super::sample::{LEAST_SHARE, piece_length};
+use super::shape::Shape;
+use super::trim::{NEW, Node};
+use crate::math::trig;
+use glam::{DVec2, DVec3, IVec3};
+use std::collections::HashMap;
+
+/// Neighbours stay this share of the spacing apart. Triangles of a thinned set have edges of one to two
+/// times that.
+const APART: f64 = 0.72;
+/// Candidates stand this many to a spacing, in both directions.
+const CANDIDATES: f64 = 5.0;
+/// How fast the spacing grows with the distance from a finer place.
+const GROWTH: f64 = 0.5;
+/// Candidate rows and candidates in a row at most: a guard for degenerate patches.
+const MOST: usize = 20_000;
+/// Probes of the bending at most in each direction.
+const MOST_PROBES: f64 = 160.0;
+
+/// Nodes for the inside of the polygons `loops`.
+pub(super) fn inside(shape: &Shape, loops: &[Vec<Node>], sampling: &Sampling) -> Vec<Node> {
+    let sizes = Sizes::new(shape, loops, sampling);
+    let mut taken = Taken::new(sampling.max_edge);
+    for l in loops {
+        for i in 0..l.len() {
+            let (a, b) = (&l[i], &l[(i + 1) % l.len()]);
+            let length = a.xyz.distance(b.xyz);
+            let size =
+                sizes.at(0.5 * (a.uv + b.uv)).min(length).max(sampling.max_edge * LEAST_SHARE);
+            // A piece longer than the spacing beside it must keep points off between its ends too.
+            let pieces = (length / size - 1e-9).ceil().max(1.0);
+            for k in 0..pieces as usize {
+                let uv = a.uv.lerp(b.uv, k as f64 / pieces);
+                let at = a.xyz.lerp(b.xyz, k as f64 / pieces);
+                taken.push(at, shape.jet(uv).normal(), size);
+            }
+        }
+    }
+    let mut nodes = Vec::new();
+    let [lo, hi] = bounds(loops);
+    let mut v = lo.y;
+    for _ in 0..MOST {
+        let mut step = f64::INFINITY;
+        for [u0, u1] in intervals(loops, v) {
+            let mut u = u0;
+            for _ in 0..MOST {
+                if u >= u1 {
+                    break;
+                }
+                let uv = DVec2::new(u, v);
+                let jet = shape.jet(uv);
+                let wanted = sizes.at(uv);
+                let (along, across) = (jet.du.length(), jet.dv.length());
+                step = step.min(wanted / (CANDIDATES * across.max(1e-300)));
+                let normal = jet.normal();
+                if let Some(size) = taken.room(jet.point, normal, wanted) {
+                    taken.push(jet.point, normal, size);
+                    nodes.push(Node { uv, xyz: jet.point, vertex: NEW, free: None });
+                }
+                u += (wanted / (CANDIDATES * along.max(1e-300)))
+                    .min(0.5 * (u1 - u0))
+                    .max(1e-9 * (hi.x - lo.x));
+            }
+        }
+        v += step.min((hi.y - lo.y) / 16.0).max(1e-5 * (hi.y - lo.y));
+        if v >= hi.y {
+            break;
+        }
+    }
+    nodes
+}
+
+/// Box of the polygons in (u, v).
+fn bounds(loops: &[Vec<Node>]) -> [DVec2; 2] {
+    let all = || loops.iter().flatten().map(|n| n.uv);
+    [all().fold(DVec2::MAX, DVec2::min), all().fold(DVec2::MIN, DVec2::max)]
+}
+
+/// Stretches of the line at `v` that lie inside the polygons, by parity.
+fn intervals(loops: &[Vec<Node>], v: f64) -> Vec<[f64; 2]> {
+    let mut cuts = Vec::new();
+    for l in loops {
+        for i in 0..l.len() {
+            let (a, b) = (l[i].uv, l[(i + 1) % l.len()].uv);
+            if (a.y > v) != (b.y > v) {
+                cuts.push(a.x + (b.x - a.x) * (v - a.y) / (b.y - a.y));
+            }
+        }
+    }
+    cuts.sort_by(f64::total_cmp);
+    cuts.chunks_exact(2).map(|c| [c[0], c[1]]).collect()
+}
+
+/// The spacing wanted over the patch: `max_edge`, less where it bends.
+struct Sizes {
+    origin: DVec2,
+    step: DVec2,
+    count: [usize; 2],
+    sizes: Vec<f64>,
+}
+
+impl Sizes {
+    fn new(shape: &Shape, loops: &[Vec<Node>], sampling: &Sampling) -> Sizes {
+        let [lo, hi] = bounds(loops);
+        let count = [0, 1].map(|k| {
+            let other = 0.5 * (lo[1 - k] + hi[1 - k]);
+            let line = (0..=16).map(|i| {
+                let t = lo[k] + (hi[k] - lo[k]) * f64::from(i) / 16.0;
+                shape.point(if k == 0 { DVec2::new(t, other) } else { DVec2::new(other, t) })
+            });
+            let line: Vec<DVec3> = line.collect();
+            let length: f64 = line.windows(2).map(|w| w[0].distance(w[1])).sum();
+            let spans = shape.lattice(k).len() as f64;
+            (2.0 * length / sampling.max_edge).max(spans).clamp(8.0, MOST_PROBES) as usize + 1
+        });
+        let step = (hi - lo) / DVec2::new((count[0] - 1) as f64, (count[1] - 1) as f64);
+        let place = |i: usize, j: usize| lo + step * DVec2::new(i as f64, j as f64);
+        let jets: Vec<_> = (0..count[0] * count[1])
+            .map(|k| shape.jet(place(k / count[1], k % count[1])))
+            .collect();
+        let mut bends = vec![0.0_f64; jets.len()];
+        let mut see = |a: usize, b: usize| {
+            let (p, q) = (&jets[a], &jets[b]);
+            let length = p.point.distance(q.point);
+            let (n, m) = (p.normal(), q.normal());
+            // A pole has no normal; its neighbours tell the bending.
+            if length > 0.0 && n != DVec3::ZERO && m != DVec3::ZERO {
+                let bend = trig::angle(n, m) / length;
+                bends[a] = bends[a].max(bend);
+                bends[b] = bends[b].max(bend);
+            }
+        };
+        for k in 0..jets.len() {
+            if k % count[1] + 1 < count[1] {
+                see(k, k + 1);
+            }
+            if k / count[1] + 1 < count[0] {
+                see(k, k + count[1]);
+            }
+        }
+        let sizes = bends.iter().map(|&b| piece_length(sampling, b)).collect();
+        Sizes { origin: lo, step, count, sizes }
+    }
+
+    /// The smallest spacing at the corners of the probes' cell that holds `uv`.
+    fn at(&self, uv: DVec2) -> f64 {
+        let cell = [0, 1].map(|k| {
+            let c = (uv[k] - self.origin[k]) / self.step[k];
+            (c.max(0.0) as usize).min(self.count[k] - 2)
+        });
+        let at = |i: usize, j: usize| self.sizes[(cell[0] + i) * self.count[1] + cell[1] + j];
+        at(0, 0).min(at(0, 1)).min(at(1, 0)).min(at(1, 1))
+    }
+}
+
+/// The points taken so far, by cells of space.
+struct Taken {
+    cell: f64,
+    cells: HashMap<IVec3, Vec<(DVec3, DVec3, f64)>>,
+}
+
+impl Taken {
+    fn new(cell: f64) -> Taken {
+        Taken { cell, cells: HashMap::new() }
+    }
+
+    fn key(&self, p: DVec3) -> IVec3 {
+        (p / self.cell).floor().as_ivec3()
+    }
+
+    fn push(&mut self, point: DVec3, normal: DVec3, size: f64) {
+        self.cells.entry(self.key(point)).or_default().push((point, normal, size));
+    }
+
+    /// The spacing a point here would have, if there is room for it.
+    fn room(&self, p: DVec3, normal: DVec3, wanted: f64) -> Option<f64> {
+        let (lo, hi) = (self.key(p - wanted), self.key(p + wanted));
+        let mut size = wanted;
+        let mut nearest = f64::INFINITY;
+        for x in lo.x..=hi.x {
+            for y in lo.y..=hi.y {
+                for z in lo.z..=hi.z {
+                    for &(q, m, s) in self.cells.get(&IVec3::new(x, y, z)).into_iter().flatten() {
+                        let d = p.distance(q);
+                        // A sheet that faces away lies on the other side of a fold.
+                        if d >= wanted || m.dot(normal) < 0.0 {
+                            continue;
+                        }
+                        nearest = nearest.min(d);
+                        size = size.min(s + GROWTH * d);
+                        if nearest < APART * size * 0.5 {
+                            return None;
+                        }
+                    }
+                }
+            }
+        }
+        (nearest >= APART * size).then_some(size)
+    }
+}

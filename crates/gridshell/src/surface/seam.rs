@@ -1,0 +1,230 @@
+//! Faces given the edges that their files leave out: sides of an untrimmed patch, and seams of a patch that
+//! closes on itself.
+//!
+//! A face without loops covers its whole patch: it is bounded by the patch's four sides, where sides that
+//! coincide are one seam edge used twice, and sides that are poles have no edge. A loop that runs once round
+//! a closed patch bounds nothing by itself: a seam leads from it to its partner on the other side, or to the
+//! pole there.
+
+use super::brep::{Brep, BrepEdge, Coedge};
+use super::curve::Curve;
+use super::model::Sampling;
+use super::shape::{Pole, Shape};
+use super::tessellate::sample_edges;
+use super::trim::{Edges, Node, Traced, Tracer};
+use crate::error::{Error, Result};
+use glam::DVec2;
+use std::sync::Arc;
+
+/// `brep` with every face bounded by loops that close in (u, v).
+///
+/// # Errors
+/// [`Error::Surface`] naming the face that has neither loops nor an end.
+pub(super) fn complete(brep: &Brep, sampling: &Sampling) -> Result<Brep> {
+    let mut brep = brep.clone();
+    for i in 0..brep.faces.len() {
+        if brep.faces[i].loops.is_empty() {
+            bound(&mut brep, i)?;
+        }
+    }
+    let closed: Vec<usize> =
+        (0..brep.faces.len()).filter(|&i| brep.faces[i].shape.closed() != [false; 2]).collect();
+    if closed.is_empty() {
+        return Ok(brep);
+    }
+    let (points, polylines) = sample_edges(&brep, sampling)?;
+    let curves: Vec<Curve> = brep.edges.iter().map(|e| e.curve.clone()).collect();
+    let edges = Edges { curves: &curves, polylines: &polylines, points: &points };
+    for i in closed {
+        let shape = brep.faces[i].shape.clone();
+        let tracer = Tracer::new(&shape, &edges, sampling);
+        let reversed = brep.faces[i].reversed;
+        let traced: std::result::Result<Vec<Traced>, String> =
+            brep.faces[i].loops.iter().map(|l| tracer.trace(l, reversed)).collect();
+        let traced = traced.map_err(|what| fault(i, &what))?;
+        cut(&mut brep, i, &traced, tracer.poles()).map_err(|what| fault(i, &what))?;
+    }
+    Ok(brep)
+}
+
+fn fault(face: usize, what: &str) -> Error {
+    Error::Surface(format!("face {}: {what}", face + 1))
+}
+
+/// Bound face `i`, which has no loops, by the sides of its patch.
+fn bound(brep: &mut Brep, i: usize) -> Result<()> {
+    let shape = Arc::new(brep.faces[i].shape.clone());
+    let [[u0, u1], [v0, v1]] = shape.domain();
+    if ![u0, u1, v0, v1].iter().all(|t| t.is_finite()) {
+        return Err(fault(i, "it has no boundary and its surface no end"));
+    }
+    let closed = shape.closed();
+    let poles = shape.poles();
+    // Corners counter-clockwise; those that are one point are one vertex.
+    let corners = [[u0, v0], [u1, v0], [u1, v1], [u0, v1]].map(DVec2::from);
+    let mut vertices = [0_u32; 4];
+    for k in 0..4 {
+        let same = (0..k).find(|&j| {
+            let d = (corners[j] - corners[k]).abs();
+            let by_period = (d.x == 0.0 || closed[0]) && (d.y == 0.0 || closed[1]);
+            let by_pole = poles
+                .iter()
+                .any(|p| corners[j][p.fixed] == p.value && corners[k][p.fixed] == p.value);
+            by_period || by_pole
+        });
+        vertices[k] = if let Some(j) = same {
+            vertices[j]
+        } else {
+            brep.vertices.push(shape.point(corners[k]));
+            brep.vertices.len() as u32 - 1
+        };
+    }
+    let mut sides: [Option<Coedge>; 4] = [None; 4];
+    for k in 0..4 {
+        // Sides 0 (v lower) and 2 (v upper) run along u; 1 (u upper) and 3 (u lower) along v.
+        let fixed = 1 - k % 2;
+        let upper = k == 1 || k == 2;
+        if poles.iter().any(|p| p.fixed == fixed && p.upper == upper) {
+            continue;
+        }
+        sides[k] = Some(match (closed[fixed], k.checked_sub(2).and_then(|j| sides[j])) {
+            // The side across is the same edge, run the other way.
+            (true, Some(across)) => Coedge { edge: across.edge, reversed: true },
+            _ => {
+                let ends = [corners[k], corners[(k + 1) % 4]];
+                let curve = Curve::UvLine { shape: shape.clone(), ends };
+                let ends = [vertices[k], vertices[(k + 1) % 4]];
+                brep.edges.push(BrepEdge { curve, range: [0.0, 1.0], ends });
+                Coedge { edge: brep.edges.len() as u32 - 1, reversed: false }
+            }
+        });
+    }
+    let mut coedges: Vec<Coedge> = sides.into_iter().flatten().collect();
+    if coedges.is_empty() {
+        return Err(fault(i, "its surface has no side that is a curve"));
+    }
+    if brep.faces[i].reversed {
+        flip(&mut coedges);
+    }
+    brep.faces[i].loops.push(coedges);
+    Ok(())
+}
+
+/// Run the other way.
+fn flip(coedges: &mut [Coedge]) {
+    coedges.reverse();
+    for c in coedges {
+        c.reversed = !c.reversed;
+    }
+}
+
+/// Cut face `i` open where loops run round its closed patch.
+fn cut(
+    brep: &mut Brep,
+    i: usize,
+    traced: &[Traced],
+    poles: &[Pole],
+) -> std::result::Result<(), String> {
+    let round: Vec<usize> =
+        (0..traced.len()).filter(|&l| traced[l].winding != DVec2::ZERO).collect();
+    match round[..] {
+        [] => Ok(()),
+        [one] => {
+            let winding = traced[one].winding;
+            let k = usize::from(winding.x == 0.0);
+            // The face lies to the left: above a loop that runs along +u, at lower u of one along +v.
+            let upper = (winding[k] > 0.0) == (k == 0);
+            let pole = poles
+                .iter()
+                .find(|p| p.fixed == 1 - k && p.upper == upper)
+                .ok_or("a loop runs round it, and nothing bounds the other side")?;
+            let start = traced[one].nodes[0];
+            let mut end = start.uv;
+            end[pole.fixed] = pole.value;
+            brep.vertices.push(pole.point);
+            let tip = brep.vertices.len() as u32 - 1;
+            let seam = add_seam(brep, i, [start.uv, end], [start.vertex, tip]);
+            let out = Coedge { edge: seam, reversed: false };
+            let back = Coedge { edge: seam, reversed: true };
+            let reversed = brep.faces[i].reversed;
+            // Seen in (u, v), each loop starts at its first node: after it has come round, go out and back.
+            let coedges = &mut brep.faces[i].loops[one];
+            if reversed {
+                flip(coedges);
+            }
+            coedges.extend([out, back]);
+            if reversed {
+                flip(coedges);
+            }
+            Ok(())
+        }
+        [one, two] if opposite(traced[one].winding, traced[two].winding) => {
+            let shape = brep.faces[i].shape.clone();
+            let (start, there, turn) = nearest(brep, i, &traced[one], &traced[two], &shape, two);
+            let seam = add_seam(brep, i, [start.uv, there.uv], [start.vertex, there.vertex]);
+            let reversed = brep.faces[i].reversed;
+            let mut second = brep.faces[i].loops[two].clone();
+            let first = &mut brep.faces[i].loops[one];
+            if reversed {
+                flip(first);
+                flip(&mut second);
+            }
+            second.rotate_left(turn);
+            first.push(Coedge { edge: seam, reversed: false });
+            first.extend(second);
+            first.push(Coedge { edge: seam, reversed: true });
+            if reversed {
+                flip(first);
+            }
+            brep.faces[i].loops.remove(two);
+            Ok(())
+        }
+        _ => Err(format!("{} loops run round it", round.len())),
+    }
+}
+
+/// Whether two windings cancel, up to rounding.
+fn opposite(a: DVec2, b: DVec2) -> bool {
+    (a + b).length() < 1e-6 * a.length()
+}
+
+/// The vertex of loop `two` nearest in (u, v) to the first node of `one`, shifted to where it is nearest, and
+/// the number of coedges before it.
+fn nearest(
+    brep: &Brep,
+    i: usize,
+    one: &Traced,
+    two: &Traced,
+    shape: &Shape,
+    loop_two: usize,
+) -> (Node, Node, usize) {
+    let start = one.nodes[0];
+    let period = shape.period();
+    let mut coedges = brep.faces[i].loops[loop_two].clone();
+    if brep.faces[i].reversed {
+        flip(&mut coedges);
+    }
+    let mut best = (f64::INFINITY, two.nodes[0], 0);
+    for (turn, c) in coedges.iter().enumerate() {
+        let ends = brep.edges[c.edge as usize].ends;
+        let vertex = ends[usize::from(c.reversed)];
+        for &node in two.nodes.iter().filter(|n| n.vertex == vertex) {
+            let mut there = node;
+            for k in (0..2).filter(|&k| period[k] > 0.0) {
+                there.uv[k] += ((start.uv[k] - node.uv[k]) / period[k]).round() * period[k];
+            }
+            let d = there.uv.distance(start.uv);
+            if d < best.0 {
+                best = (d, there, turn);
+            }
+        }
+    }
+    (start, best.1, best.2)
+}
+
+/// A seam edge straight in (u, v).
+fn add_seam(brep: &mut Brep, i: usize, uv: [DVec2; 2], ends: [u32; 2]) -> u32 {
+    let curve = Curve::UvLine { shape: Arc::new(brep.faces[i].shape.clone()), ends: uv };
+    brep.edges.push(BrepEdge { curve, range: [0.0, 1.0], ends });
+    brep.edges.len() as u32 - 1
+}

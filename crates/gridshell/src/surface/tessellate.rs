@@ -1,0 +1,259 @@
+//! A boundary representation made into a [`Surface`]: carrier, loops, exact area.
+//!
+//! Edges are sampled once, so that faces fit together; each face is trimmed, filled, woven and refined on its
+//! own; then all are turned to the same side and joined.
+
+use super::brep::{Brep, BrepFace};
+use super::model::Sampling;
+use super::orient::{self, Wing};
+use super::refine::Web;
+use super::shape::Shape;
+use super::trim::{Edges, NEW, Node, Polyline, Tracer, Trim};
+use super::{Carrier, Surface, area, chain, fill, sample, seam, weave};
+use crate::error::{Error, Result};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// More triangles than this are not made.
+const MOST_TRIANGLES: f64 = 8e6;
+
+/// The triangles of one face.
+struct Piece {
+    nodes: Vec<Node>,
+    triangles: Vec<[u32; 3]>,
+    area: f64,
+}
+
+/// Make the surface of `brep` with a carrier of this sampling.
+///
+/// # Errors
+/// [`Error::Surface`] naming the face whose boundary crosses itself or lies off its surface, or where more
+/// than two faces meet in an edge; [`Error::Option`] where the sampling is too fine for the model.
+pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
+    check(brep, sampling)?;
+    let brep = &seam::complete(brep, sampling)?;
+    let (mut points, polylines) = sample_edges(brep, sampling)?;
+    let curves: Vec<_> = brep.edges.iter().map(|e| e.curve.clone()).collect();
+    let edges = Edges { curves: &curves, polylines: &polylines, points: &points };
+    let pieces: Vec<Piece> = brep
+        .faces
+        .par_iter()
+        .enumerate()
+        .map(|(i, face)| piece(face, &edges, sampling).map_err(|what| fault(i, &what)))
+        .collect::<Result<_>>()?;
+
+    let mut wings = Vec::new();
+    let mut uv = Vec::new();
+    let mut patch = Vec::new();
+    for (i, piece) in pieces.iter().enumerate() {
+        let ids: Vec<u32> = piece
+            .nodes
+            .iter()
+            .map(|n| {
+                if n.vertex == NEW {
+                    points.push(n.xyz);
+                    points.len() as u32 - 1
+                } else {
+                    n.vertex
+                }
+            })
+            .collect();
+        let mut wing = Wing::default();
+        for t in &piece.triangles {
+            let t = if brep.faces[i].reversed { [t[0], t[2], t[1]] } else { *t };
+            wing.triangles.push(t.map(|n| ids[n as usize]));
+            uv.push(t.map(|n| parameters(&piece.nodes[n as usize])));
+            patch.push(i as u32);
+        }
+        wings.push(wing);
+    }
+    let flipped = orient::alike(&wings, &points)?;
+    let mut triangles: Vec<[u32; 3]> = wings.into_iter().flat_map(|w| w.triangles).collect();
+    for (k, t) in triangles.iter_mut().enumerate() {
+        if flipped[patch[k] as usize] {
+            t.swap(1, 2);
+            uv[k].swap(1, 2);
+        }
+    }
+    let kept = compact(&mut points, &mut triangles);
+    if triangles.is_empty() {
+        return Err(Error::Surface(format!("{}: there is no face with an area", brep.name)));
+    }
+    let carrier = Carrier::new(points, triangles, patch, uv);
+    let traces = traces(&polylines, &kept);
+    let curve_of = |a: u32, b: u32| {
+        let at = traces.binary_search_by_key(&(a.min(b), a.max(b)), |t| t.0).ok()?;
+        let (_, edge, [lo, hi]) = traces[at];
+        Some(if a < b { (edge, lo, hi) } else { (edge, hi, lo) })
+    };
+    let mut loops = chain::boundary_loops(&carrier, PI, curve_of);
+    for l in &mut loops {
+        l.find_corners(&carrier, &curves, sampling.corner_angle);
+    }
+    Ok(Surface {
+        name: brep.name.clone(),
+        carrier,
+        loops,
+        shapes: brep.faces.iter().map(|f| f.shape.clone()).collect(),
+        curves,
+        area: pieces.iter().map(|p| p.area).sum(),
+    })
+}
+
+fn fault(face: usize, what: &str) -> Error {
+    Error::Surface(format!("face {}: {what}", face + 1))
+}
+
+/// Refuse what the rest relies on.
+fn check(brep: &Brep, sampling: &Sampling) -> Result<()> {
+    let positive = |x: f64| x.is_finite() && x > 0.0;
+    if !positive(sampling.max_edge) || !positive(sampling.chord_error) {
+        return Err(Error::Option("the sampling's lengths must be positive".into()));
+    }
+    for (i, e) in brep.edges.iter().enumerate() {
+        let known = e.ends.iter().all(|&v| (v as usize) < brep.vertices.len());
+        if !known || !(e.range[0] < e.range[1]) || !e.range.iter().all(|t| t.is_finite()) {
+            return Err(Error::Surface(format!("edge {} has no proper ends or range", i + 1)));
+        }
+    }
+    for (i, f) in brep.faces.iter().enumerate() {
+        if f.loops.iter().flatten().any(|c| c.edge as usize >= brep.edges.len()) {
+            return Err(fault(i, "a loop names an edge that does not exist"));
+        }
+    }
+    Ok(())
+}
+
+/// Sample every edge once. Brep vertices come first among the points.
+pub(super) fn sample_edges(
+    brep: &Brep,
+    sampling: &Sampling,
+) -> Result<(Vec<DVec3>, Vec<Polyline>)> {
+    let mut points = brep.vertices.clone();
+    let mut polylines = Vec::with_capacity(brep.edges.len());
+    for e in &brep.edges {
+        let t = sample::parameters(e, sampling).ok_or_else(too_fine)?;
+        let mut vertices = vec![e.ends[0]];
+        for &t in &t[1..t.len() - 1] {
+            vertices.push(points.len() as u32);
+            points.push(e.curve.point(t));
+        }
+        vertices.push(e.ends[1]);
+        polylines.push(Polyline { t, vertices });
+    }
+    Ok((points, polylines))
+}
+
+fn too_fine() -> Error {
+    Error::Option(
+        "the edge length is too small for so large a surface; ask for a longer one".into(),
+    )
+}
+
+/// Mesh one face.
+fn piece(
+    face: &BrepFace,
+    edges: &Edges,
+    sampling: &Sampling,
+) -> std::result::Result<Piece, String> {
+    let shape = &face.shape;
+    let Trim { loops, sliver } = Tracer::new(shape, edges, sampling).trim(face)?;
+    let scale = mean_metric(shape, &loops);
+    let rough = polygon_area(&loops, scale) / (sampling.max_edge * sampling.max_edge);
+    if rough > MOST_TRIANGLES {
+        return Err("the edge length is too small for so large a face; ask for a longer one".into());
+    }
+    let mut nodes: Vec<Node> = loops.iter().flatten().copied().collect();
+    let mut rims = Vec::with_capacity(nodes.len());
+    let mut from = 0;
+    for l in &loops {
+        let n = l.len() as u32;
+        rims.extend((0..n).map(|i| [from + i, from + (i + 1) % n]));
+        from += n;
+    }
+    nodes.extend(fill::inside(shape, &loops, sampling));
+    let triangles = weave::triangles(&nodes, &rims, scale).map_err(|i| {
+        let p = nodes[i].xyz;
+        format!("its boundary crosses itself near ({:.4}, {:.4}, {:.4})", p.x, p.y, p.z)
+    })?;
+    let mut web = Web::new(shape, nodes, &triangles, &rims);
+    web.refine(sampling);
+    let area: f64 = web
+        .triangles
+        .iter()
+        .map(|t| area::triangle(shape, t.map(|n| parameters(&web.nodes[n as usize]))))
+        .sum();
+    Ok(Piece { nodes: web.nodes, triangles: web.triangles, area: area + sliver })
+}
+
+/// Parameters of a node as the carrier keeps them: NaN where a pole leaves one without meaning.
+fn parameters(node: &Node) -> DVec2 {
+    let mut uv = node.uv;
+    if let Some(k) = node.free {
+        uv[k] = f64::NAN;
+    }
+    uv
+}
+
+/// Mean lengths of the derivatives over the polygons' box.
+fn mean_metric(shape: &Shape, loops: &[Vec<Node>]) -> DVec2 {
+    const EACH: usize = 12;
+    let all = || loops.iter().flatten().map(|n| n.uv);
+    let (lo, hi) = (all().fold(DVec2::MAX, DVec2::min), all().fold(DVec2::MIN, DVec2::max));
+    let mut sum = DVec2::ZERO;
+    for k in 0..EACH * EACH {
+        let share = DVec2::new((k / EACH) as f64 + 0.5, (k % EACH) as f64 + 0.5) / EACH as f64;
+        let jet = shape.jet(lo + (hi - lo) * share);
+        sum += DVec2::new(jet.du.length(), jet.dv.length());
+    }
+    let mean = sum / (EACH * EACH) as f64;
+    mean.max(DVec2::splat(1e-12))
+}
+
+fn polygon_area(loops: &[Vec<Node>], scale: DVec2) -> f64 {
+    let one = |l: &Vec<Node>| {
+        let n = l.len();
+        (0..n).map(|i| (l[i].uv * scale).perp_dot(l[(i + 1) % n].uv * scale)).sum::<f64>().abs()
+    };
+    loops.iter().map(one).sum()
+}
+
+/// Drop points that no triangle uses; the new number of each, or `u32::MAX`.
+fn compact(points: &mut Vec<DVec3>, triangles: &mut [[u32; 3]]) -> Vec<u32> {
+    let mut kept = vec![u32::MAX; points.len()];
+    for &v in triangles.iter().flatten() {
+        kept[v as usize] = 0;
+    }
+    let mut next = 0;
+    for k in kept.iter_mut().filter(|k| **k == 0) {
+        *k = next;
+        next += 1;
+    }
+    let mut i = 0;
+    points.retain(|_| {
+        i += 1;
+        kept[i - 1] != u32::MAX
+    });
+    for v in triangles.iter_mut().flatten() {
+        *v = kept[*v as usize];
+    }
+    kept
+}
+
+/// A carrier edge (lower vertex first) on a model edge, with the curve's parameters at both.
+type Trace = ((u32, u32), u32, [f64; 2]);
+
+/// All carrier edges that lie on model edges, sorted.
+fn traces(polylines: &[Polyline], kept: &[u32]) -> Vec<Trace> {
+    let mut traces = Vec::new();
+    for (e, line) in polylines.iter().enumerate() {
+        for k in 1..line.t.len() {
+            let [a, b] = [k - 1, k].map(|i| (kept[line.vertices[i] as usize], line.t[i]));
+            let (lo, hi) = if a.0 < b.0 { (a, b) } else { (b, a) };
+            traces.push(((lo.0, hi.0), e as u32, [lo.1, hi.1]));
+        }
+    }
+    traces.sort_by_key(|t| (t.0, t.1));
+    traces
+}
