@@ -43,14 +43,29 @@ pub struct Report {
 pub fn balance(surface: &Surface, grid: &mut Grid, options: &Options, job: &Job) -> Report {
     let mut report = Report::default();
     let mut system = System::new(grid, options.straightness);
+    let mut energy = f64::INFINITY;
     while report.steps < options.max_steps && !job.stopped() {
         let step = system.step(surface, grid);
+        if energy.is_infinite() {
+            energy = system.energy(grid);
+        }
         let longest = step.iter().map(|d| d.length()).fold(0.0, f64::max);
-        let scale = (REACH * system.mean / longest).min(1.0);
-        report.last_move = 0.0;
-        for (i, d) in step.iter().enumerate() {
-            let moved = grid.slide(surface, i, *d * scale);
-            report.last_move = report.last_move.max(moved / system.mean);
+        let mut scale = (REACH * system.mean / longest).min(1.0);
+        // Gauss-Newton leaves out what compressed members lack in stiffness: back off where it overshoots.
+        for _ in 0..8 {
+            let before = grid.clone();
+            report.last_move = 0.0;
+            for (i, d) in step.iter().enumerate() {
+                let moved = grid.slide(surface, i, *d * scale);
+                report.last_move = report.last_move.max(moved / system.mean);
+            }
+            let after = system.energy(grid);
+            if after <= energy || report.last_move < options.settled {
+                energy = after;
+                break;
+            }
+            *grid = before;
+            scale *= 0.4;
         }
         report.steps += 1;
         report.converged = report.last_move < options.settled;
@@ -123,6 +138,24 @@ impl System {
             freedom: Vec::new(),
             diagonal,
         }
+    }
+
+    /// What is minimised, up to the curvature of the surface: the spread of lengths and the bends in the
+    /// tangent planes of the last linearisation.
+    fn energy(&self, grid: &Grid) -> f64 {
+        let lengths = || self.edges.iter().map(|&(a, b)| grid.length(a, b));
+        let mean = lengths().sum::<f64>() / self.edges.len() as f64;
+        let spread: f64 = lengths().map(|l| (l - mean) * (l - mean)).sum();
+        let bends: f64 = self
+            .lines
+            .iter()
+            .map(|&[i, j, k]| {
+                let [p, q, r] = [i, j, k].map(|v| grid.xyz[v as usize]);
+                let bend = q + r - p * 2.0;
+                self.freedom.get(i as usize).map_or(bend, |f| f.project(bend)).length_squared()
+            })
+            .sum();
+        spread + self.straightness * bends
     }
 
     /// Linearise at the grid's positions and solve for the move of every node.

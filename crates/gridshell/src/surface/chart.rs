@@ -1,18 +1,17 @@
 //! A flattening of the carrier with little distortion, on which a lattice can be laid.
 //!
-//! The start is a discrete exponential map: vertices are laid out in order of their distance from the
-//! innermost one, each where the triangles already laid say on average. Then local/global steps make every
-//! triangle as rigid as possible with a free boundary (Liu et al., *A local/global approach to mesh
-//! parameterization*, 2008). Only for one connected piece of genus 0 with a boundary; a chart may still
-//! overlap itself (a spiral does), which a lattice does not mind.
+//! The start is the projection along the mean normal where that folds nothing over, otherwise Tutte's
+//! embedding (the longest loop on a circle, a hub in every other loop), which never folds. Then local/global
+//! steps make every triangle as rigid as possible with a free boundary (Liu et al., *A local/global approach
+//! to mesh parameterization*, 2008). Only for one connected piece of genus 0 with a boundary; a chart may
+//! still overlap itself (a spiral does), which a lattice does not mind.
 
-use super::{Carrier, carrier::NONE};
-use glam::{DMat2, DVec2};
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use super::{Carrier, Chain};
+use crate::math::trig::{cos, sin};
+use glam::{DMat2, DVec2, DVec3};
 
-/// Local/global steps: the distortion hardly falls after these.
-const STEPS: usize = 16;
+/// Local/global steps from a projection, and from Tutte's embedding, which is farther off.
+const STEPS: [usize; 2] = [16, 60];
 /// Conjugate-gradient steps in each, from where the last one ended.
 const SOLVER_STEPS: usize = 80;
 /// Smallest cotangent weight; obtuse pairs would make the system indefinite.
@@ -27,13 +26,19 @@ pub struct Chart {
 
 impl Chart {
     /// Flatten a carrier; None where that makes no sense: closed, not connected, or with handles.
-    pub fn flatten(carrier: &Carrier, euler_characteristic: i64, loops: usize) -> Option<Chart> {
-        // Genus from chi = 2 - 2g - b; a carrier in pieces fails here or leaves vertices unplaced.
-        if loops == 0 || euler_characteristic != 2 - loops as i64 {
+    pub fn flatten(carrier: &Carrier, loops: &[Chain], euler_characteristic: i64) -> Option<Chart> {
+        // chi = 2 - 2 genus - loops for one piece.
+        if loops.is_empty()
+            || euler_characteristic != 2 - loops.len() as i64
+            || !is_connected(carrier)
+        {
             return None;
         }
-        let uv = exponential_map(carrier)?;
-        Some(Chart { uv: as_rigid_as_possible(carrier, uv) })
+        let (uv, steps) = match projection(carrier) {
+            Some(uv) => (uv, STEPS[0]),
+            None => (tutte(carrier, loops), STEPS[1]),
+        };
+        Some(Chart { uv: as_rigid_as_possible(carrier, uv, steps) })
     }
 
     /// Corners of carrier triangle `t` in the plane.
@@ -42,116 +47,86 @@ impl Chart {
     }
 }
 
-/// A distance that orders in a heap.
-#[derive(PartialEq, PartialOrd)]
-struct Distance(f64);
-impl Eq for Distance {}
-impl Ord for Distance {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.0.total_cmp(&other.0)
-    }
-}
-
-/// Lengths of shortest paths along carrier edges from these vertices.
-fn distances(carrier: &Carrier, around: &[Vec<u32>], from: &[u32]) -> Vec<f64> {
-    let mut distance = vec![f64::INFINITY; carrier.points.len()];
-    let mut heap = BinaryHeap::new();
-    for &v in from {
-        distance[v as usize] = 0.0;
-        heap.push(Reverse((Distance(0.0), v)));
-    }
-    while let Some(Reverse((Distance(d), v))) = heap.pop() {
-        if d > distance[v as usize] {
+fn is_connected(carrier: &Carrier) -> bool {
+    let mut seen = vec![false; carrier.triangles.len()];
+    let mut stack = vec![0u32];
+    let mut count = 0;
+    while let Some(t) = stack.pop() {
+        if std::mem::replace(&mut seen[t as usize], true) {
             continue;
         }
-        for &t in &around[v as usize] {
-            for w in carrier.triangles[t as usize] {
-                let onward = d + carrier.points[v as usize].distance(carrier.points[w as usize]);
-                if onward < distance[w as usize] {
-                    distance[w as usize] = onward;
-                    heap.push(Reverse((Distance(onward), w)));
-                }
-            }
+        count += 1;
+        stack.extend(carrier.neighbors[t as usize].iter().filter(|&&n| n != super::carrier::NONE));
+    }
+    count == seen.len()
+}
+
+/// The carrier seen along its mean normal; None where a triangle is seen from behind.
+fn projection(carrier: &Carrier) -> Option<Vec<DVec2>> {
+    let area = |p: [DVec3; 3]| (p[1] - p[0]).cross(p[2] - p[0]);
+    let mean: DVec3 = (0..carrier.triangles.len()).map(|t| area(carrier.corners(t as u32))).sum();
+    let normal = mean.normalize_or_zero();
+    let seen = |t: usize| area(carrier.corners(t as u32)).dot(normal) > 0.0;
+    if !(0..carrier.triangles.len()).all(seen) {
+        return None;
+    }
+    let (x, y) = normal.any_orthonormal_pair();
+    // Right-handed with the normal towards the viewer.
+    let (x, y) = if x.cross(y).dot(normal) > 0.0 { (x, y) } else { (y, x) };
+    Some(carrier.points.iter().map(|p| DVec2::new(p.dot(x), p.dot(y))).collect())
+}
+
+/// Tutte's embedding: every inner vertex in the middle of its neighbours.
+fn tutte(carrier: &Carrier, loops: &[Chain]) -> Vec<DVec2> {
+    let n = carrier.points.len();
+    let hubs = loops.len() - 1;
+    let outer = (0..loops.len())
+        .max_by(|&a, &b| loops[a].length().total_cmp(&loops[b].length()))
+        .unwrap_or(0);
+    let mut entries: Vec<(u32, u32, f64)> = Vec::new();
+    for corners in &carrier.triangles {
+        for k in 0..3 {
+            let (i, j) = (corners[k], corners[(k + 1) % 3]);
+            entries.extend([(i, j, 0.5), (j, i, 0.5)]);
         }
     }
-    distance
-}
-
-fn exponential_map(carrier: &Carrier) -> Option<Vec<DVec2>> {
-    let mut around = vec![Vec::new(); carrier.points.len()];
-    for (t, corners) in carrier.triangles.iter().enumerate() {
-        for &v in corners {
-            around[v as usize].push(t as u32);
-        }
+    for (h, chain) in
+        loops.iter().enumerate().filter(|&(c, _)| c != outer).map(|(_, c)| c).enumerate()
+    {
+        let hub = (n + h) as u32;
+        entries.extend(chain.vertices.iter().flat_map(|&v| [(v, hub, 1.0), (hub, v, 1.0)]));
     }
-    let rim: Vec<u32> = carrier
-        .neighbors
-        .iter()
-        .zip(&carrier.triangles)
-        .flat_map(|(n, c)| (0..3).filter(move |&k| n[k] == NONE).map(move |k| c[k]))
-        .collect();
-    let depth = distances(carrier, &around, &rim);
-    let (innermost, _) = depth.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
-    let distance = distances(carrier, &around, &[innermost as u32]);
-
-    let mut uv: Vec<Option<DVec2>> = vec![None; carrier.points.len()];
-    let first = carrier.triangles[around[innermost][0] as usize];
-    let k = first.iter().position(|&v| v as usize == innermost)?;
-    let second = first[(k + 1) % 3] as usize;
-    uv[innermost] = Some(DVec2::ZERO);
-    uv[second] = Some(DVec2::new(carrier.points[innermost].distance(carrier.points[second]), 0.0));
-    let mut heap: BinaryHeap<Reverse<(Distance, u32)>> = BinaryHeap::new();
-    let mut ready = vec![innermost as u32, second as u32];
-    loop {
-        for v in ready.drain(..) {
-            for &t in &around[v as usize] {
-                let corners = carrier.triangles[t as usize];
-                let missing: Vec<u32> =
-                    corners.into_iter().filter(|&w| uv[w as usize].is_none()).collect();
-                if let [w] = missing[..] {
-                    heap.push(Reverse((Distance(distance[w as usize]), w)));
-                }
-            }
-        }
-        let Some(Reverse((_, v))) = heap.pop() else { break };
-        if uv[v as usize].is_some() {
-            continue;
-        }
-        let laid: Vec<DVec2> =
-            around[v as usize].iter().filter_map(|&t| apex(carrier, t, v, &uv)).collect();
-        uv[v as usize] = Some(laid.iter().sum::<DVec2>() / laid.len() as f64);
-        ready.push(v);
+    let mut laplacian = Laplacian::new(n + hubs, entries);
+    let mut uv = vec![DVec2::ZERO; n + hubs];
+    let chain = &loops[outer];
+    let radius = chain.length() / std::f64::consts::TAU;
+    for (&v, &s) in chain.vertices.iter().zip(&chain.arc) {
+        let angle = s / radius;
+        uv[v as usize] = DVec2::new(cos(angle), sin(angle)) * radius;
+        laplacian.fixed[v as usize] = true;
     }
-    uv.into_iter().collect()
+    let right = vec![DVec2::ZERO; n + hubs];
+    laplacian.solve(&right, &mut uv, 2000);
+    uv.truncate(n);
+    uv
 }
 
-/// Where triangle `t` puts its corner `v` in the plane, its other two corners being laid already.
-fn apex(carrier: &Carrier, t: u32, v: u32, uv: &[Option<DVec2>]) -> Option<DVec2> {
-    let corners = carrier.triangles[t as usize];
-    let k = corners.iter().position(|&c| c == v)?;
-    let (a, b) = (corners[(k + 1) % 3] as usize, corners[(k + 2) % 3] as usize);
-    let (p, q) = (uv[a]?, uv[b]?);
-    let edge = carrier.points[b] - carrier.points[a];
-    let to = carrier.points[v as usize] - carrier.points[a];
-    let x = to.dot(edge) / edge.length_squared();
-    let y = edge.cross(to).length() / edge.length_squared();
-    let along = q - p;
-    Some(p + along * x + along.perp() * y)
-}
+/// A triangle laid flat: edge vectors k -> k + 1 in its own plane, and their cotangent weights.
+type Flat = [(DVec2, f64); 3];
 
-/// The constant part of the local/global iteration: triangles laid flat, and the Laplacian's rows.
-struct Rigid {
-    /// Per triangle: edge vectors k -> k + 1 in its own plane, and their cotangent weights.
-    edges: Vec<[(DVec2, f64); 3]>,
-    rows: Vec<Vec<(u32, f64)>>,
-    diagonal: Vec<f64>,
-}
-
-fn as_rigid_as_possible(carrier: &Carrier, mut uv: Vec<DVec2>) -> Vec<DVec2> {
-    let rigid = Rigid::new(carrier);
-    for _ in 0..STEPS {
+fn as_rigid_as_possible(carrier: &Carrier, mut uv: Vec<DVec2>, steps: usize) -> Vec<DVec2> {
+    let flat: Vec<Flat> =
+        (0..carrier.triangles.len()).map(|t| lay_flat(carrier.corners(t as u32))).collect();
+    let entries = carrier.triangles.iter().zip(&flat).flat_map(|(corners, edges)| {
+        (0..3).flat_map(move |k| {
+            let (i, j, w) = (corners[k], corners[(k + 1) % 3], edges[k].1);
+            [(i, j, w), (j, i, w)]
+        })
+    });
+    let laplacian = Laplacian::new(uv.len(), entries.collect());
+    for _ in 0..steps {
         let mut right = vec![DVec2::ZERO; uv.len()];
-        for (corners, edges) in carrier.triangles.iter().zip(&rigid.edges) {
+        for (corners, edges) in carrier.triangles.iter().zip(&flat) {
             let mut sum = DMat2::ZERO;
             for k in 0..3 {
                 let d = uv[corners[(k + 1) % 3] as usize] - uv[corners[k] as usize];
@@ -168,32 +143,31 @@ fn as_rigid_as_possible(carrier: &Carrier, mut uv: Vec<DVec2>) -> Vec<DVec2> {
                 right[corners[k] as usize] -= f;
             }
         }
-        rigid.solve(&right, &mut uv);
+        laplacian.solve(&right, &mut uv, SOLVER_STEPS);
     }
     uv
 }
 
-impl Rigid {
-    fn new(carrier: &Carrier) -> Rigid {
-        let n = carrier.points.len();
-        let mut entries: Vec<(u32, u32, f64)> = Vec::with_capacity(carrier.triangles.len() * 6);
-        let edges = (0..carrier.triangles.len())
-            .map(|t| {
-                let corners = carrier.triangles[t];
-                let p = carrier.corners(t as u32);
-                let x = (p[1] - p[0]).normalize_or_zero();
-                let y = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero().cross(x);
-                [0, 1, 2].map(|k| {
-                    let (a, b, c) = (p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
-                    let cot =
-                        (a - c).dot(b - c) / (a - c).cross(b - c).length().max(f64::MIN_POSITIVE);
-                    let w = (0.5 * cot).clamp(LEAST_WEIGHT, 1.0 / LEAST_WEIGHT);
-                    let (i, j) = (corners[k], corners[(k + 1) % 3]);
-                    entries.extend([(i, j, w), (j, i, w)]);
-                    (DVec2::new((b - a).dot(x), (b - a).dot(y)), w)
-                })
-            })
-            .collect();
+fn lay_flat(p: [DVec3; 3]) -> Flat {
+    let x = (p[1] - p[0]).normalize_or_zero();
+    let y = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero().cross(x);
+    [0, 1, 2].map(|k| {
+        let (a, b, c) = (p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
+        let cot = (a - c).dot(b - c) / (a - c).cross(b - c).length().max(f64::MIN_POSITIVE);
+        let w = (0.5 * cot).clamp(LEAST_WEIGHT, 1.0 / LEAST_WEIGHT);
+        (DVec2::new((b - a).dot(x), (b - a).dot(y)), w)
+    })
+}
+
+/// A weighted graph Laplacian; fixed entries keep their values.
+struct Laplacian {
+    rows: Vec<Vec<(u32, f64)>>,
+    diagonal: Vec<f64>,
+    fixed: Vec<bool>,
+}
+
+impl Laplacian {
+    fn new(n: usize, mut entries: Vec<(u32, u32, f64)>) -> Laplacian {
         entries.sort_by_key(|e| (e.0, e.1));
         let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); n];
         let mut diagonal = vec![0.0; n];
@@ -204,19 +178,19 @@ impl Rigid {
                 _ => rows[i as usize].push((j, w)),
             }
         }
-        Rigid { edges, rows, diagonal }
+        Laplacian { rows, diagonal, fixed: vec![false; n] }
     }
 
     fn apply(&self, x: &[DVec2]) -> Vec<DVec2> {
         let row = |i: usize| {
             let off: DVec2 = self.rows[i].iter().map(|&(j, w)| x[j as usize] * w).sum();
-            x[i] * self.diagonal[i] - off
+            if self.fixed[i] { DVec2::ZERO } else { x[i] * self.diagonal[i] - off }
         };
         (0..x.len()).map(row).collect()
     }
 
-    /// A few steps of conjugate gradients on L x = right, both coordinates at once, from `x`.
-    fn solve(&self, right: &[DVec2], x: &mut [DVec2]) {
+    /// At most `steps` conjugate-gradient steps on L x = right, both coordinates at once, from `x`.
+    fn solve(&self, right: &[DVec2], x: &mut [DVec2], steps: usize) {
         let dot = |a: &[DVec2], b: &[DVec2]| a.iter().zip(b).map(|(p, q)| p.dot(*q)).sum::<f64>();
         let ax = self.apply(x);
         let mut r: Vec<DVec2> = right.iter().zip(&ax).map(|(b, a)| *b - *a).collect();
@@ -226,9 +200,10 @@ impl Rigid {
         let mut z = scaled(&r);
         let mut p = z.clone();
         let mut rz = dot(&r, &z);
-        let enough = rz * 1e-8;
-        for _ in 0..SOLVER_STEPS {
-            if rz <= enough || rz == 0.0 {
+        // Against the right side too: a good start is at rounding level already.
+        let enough = 1e-12 * dot(right, &scaled(right)).max(rz);
+        for _ in 0..steps {
+            if rz <= enough {
                 break;
             }
             let ap = self.apply(&p);

@@ -90,11 +90,14 @@ impl Intrinsic {
     fn is_delaunay(&self, a: u32, b: u32) -> bool {
         let Some((l, c, d)) = self.quad(a, b) else { return true };
         let b = DVec2::new(l, 0.0);
-        // cot of an angle = dot / cross; the sum of two cotangents is negative when the angles exceed pi.
+        // The sine of the sum of the two angles is negative when they exceed pi.
         let (u, v) = ((-c, b - c), (b - d, -d));
-        let (cross_c, cross_d) = (u.0.perp_dot(u.1), v.0.perp_dot(v.1));
-        let sum = u.0.dot(u.1) * cross_d + v.0.dot(v.1) * cross_c;
-        sum >= -1e-10 * l * l * l * l
+        let sine = u.0.perp_dot(u.1) * v.0.dot(v.1) + u.0.dot(u.1) * v.0.perp_dot(v.1);
+        let scale = u.0.length_squared()
+            * u.1.length_squared()
+            * v.0.length_squared()
+            * v.1.length_squared();
+        sine >= -1e-9 * scale.sqrt()
     }
 
     /// Flip the edge if topology allows; the new edge gets the length across.

@@ -90,3 +90,6 @@ pub const ALL: &[Builtin] = &[
 pub fn model(name: &str) -> Option<Model> {
     ALL.iter().find(|b| b.name == name).map(|b| Model::Brep((b.build)()))
 }
+
+#[cfg(test)]
+mod tests;

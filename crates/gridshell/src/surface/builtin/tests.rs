@@ -1,0 +1,122 @@
+//! The built-in B-reps are consistent: edges end in their vertices, lie on their faces, and run round them
+//! with the surface to the left.
+
+use super::*;
+use crate::surface::Shape;
+use crate::surface::brep::{BrepEdge, BrepFace, Coedge};
+use glam::{DVec2, DVec3};
+
+fn breps() -> impl Iterator<Item = Brep> {
+    ALL.iter().map(|b| (b.build)())
+}
+
+/// Points along an edge, as a loop uses it.
+fn sample(edge: &BrepEdge, coedge: Coedge) -> Vec<DVec3> {
+    let [a, b] = edge.range;
+    let at = |k: i32| edge.curve.point(a + (b - a) * f64::from(k) / 24.0);
+    let points: Vec<DVec3> = (0..=24).map(at).collect();
+    if coedge.reversed { points.into_iter().rev().collect() } else { points }
+}
+
+/// The parameters of the point of a patch nearest to `p`, by Gauss and Newton from the nearest of a raster.
+fn locate(shape: &Shape, p: DVec3) -> DVec2 {
+    let Shape::Nurbs(patch) = shape else { return p.truncate() };
+    let range = [0, 1].map(|k| [patch.knots[k][patch.degree[k]], patch.knots[k][patch.count[k]]]);
+    let at = |k: usize, i: i32| range[k][0] + (range[k][1] - range[k][0]) * f64::from(i) / 32.0;
+    let raster = (0..33 * 33).map(|i| DVec2::new(at(0, i / 33), at(1, i % 33)));
+    let mut uv = raster
+        .min_by(|a, b| shape.point(*a).distance(p).total_cmp(&shape.point(*b).distance(p)))
+        .unwrap();
+    for _ in 0..50 {
+        let j = shape.jet(uv);
+        let d = p - j.point;
+        let (e, f, g) = (j.du.dot(j.du), j.du.dot(j.dv), j.dv.dot(j.dv));
+        let (r, s) = (d.dot(j.du), d.dot(j.dv));
+        uv += DVec2::new(g * r - f * s, e * s - f * r) / (e * g - f * f);
+        uv = uv.clamp(DVec2::new(range[0][0], range[1][0]), DVec2::new(range[0][1], range[1][1]));
+    }
+    uv
+}
+
+#[test]
+fn edges_end_in_their_vertices_and_loops_close() {
+    for brep in breps() {
+        for edge in &brep.edges {
+            for k in 0..2 {
+                let gap =
+                    edge.curve.point(edge.range[k]).distance(brep.vertices[edge.ends[k] as usize]);
+                assert!(gap < 1e-12 * 1e3, "{}: {gap}", brep.name);
+            }
+        }
+        for outline in brep.faces.iter().flat_map(|f| &f.loops) {
+            let end = |c: &Coedge, k: usize| {
+                brep.edges[c.edge as usize].ends[k ^ usize::from(c.reversed)]
+            };
+            for (k, c) in outline.iter().enumerate() {
+                assert_eq!(end(c, 1), end(&outline[(k + 1) % outline.len()], 0), "{}", brep.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_edge_bounds_one_face_or_two_in_opposite_directions() {
+    for brep in breps() {
+        let mut uses = vec![Vec::new(); brep.edges.len()];
+        for c in brep.faces.iter().flat_map(|f| &f.loops).flatten() {
+            uses[c.edge as usize].push(c.reversed);
+        }
+        let closed = matches!(brep.name.as_str(), "torus" | "sphere");
+        for mut u in uses {
+            u.sort_unstable();
+            assert!(u == [false, true] || (!closed && u.len() == 1), "{}: {u:?}", brep.name);
+        }
+    }
+}
+
+#[test]
+fn edges_lie_on_their_faces_with_the_surface_to_the_left() {
+    for brep in breps() {
+        for face in &brep.faces {
+            let areas: Vec<f64> = face.loops.iter().map(|l| signed_area(&brep, face, l)).collect();
+            assert!(
+                areas[0] > 0.0 && areas[1..].iter().all(|&a| a < 0.0),
+                "{}: {areas:?}",
+                brep.name
+            );
+        }
+    }
+}
+
+/// Area inside a loop in the face's parameters; negative where the loop runs clockwise.
+fn signed_area(brep: &Brep, face: &BrepFace, outline: &[Coedge]) -> f64 {
+    let mut uv: Vec<DVec2> = Vec::new();
+    for c in outline {
+        for p in sample(&brep.edges[c.edge as usize], *c) {
+            let at = locate(&face.shape, p);
+            let gap = face.shape.point(at).distance(p);
+            assert!(gap < 1e-9, "{}: {gap} at {p}", brep.name);
+            uv.push(at);
+        }
+    }
+    (0..uv.len()).map(|k| uv[k].perp_dot(uv[(k + 1) % uv.len()]) / 2.0).sum()
+}
+
+#[test]
+fn outsides_point_up_and_closed_ones_outwards() {
+    for brep in breps() {
+        for face in &brep.faces {
+            let edge = &brep.edges[face.loops[0][0].edge as usize];
+            let p = edge.curve.point(edge.range[0] * 0.6 + edge.range[1] * 0.4);
+            let j = face.shape.jet(locate(&face.shape, p));
+            let outside = j.du.cross(j.dv);
+            let wanted = match brep.name.as_str() {
+                "sphere" | "dome" => p,
+                // Away from the circle in the middle of the tube.
+                "torus" => p - DVec3::new(p.x, p.y, 0.0).normalize() * 10.0,
+                _ => DVec3::Z,
+            };
+            assert!(outside.dot(wanted) > 0.0, "{}", brep.name);
+        }
+    }
+}
