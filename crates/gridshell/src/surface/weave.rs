@@ -1,10 +1,10 @@
 //! Triangles of one face: constrained Delaunay in (u, v), then flips and splits measured in space.
 //!
-//! The (u, v) plane is scaled to the patch's mean metric for Delaunay. Triangles are sorted into inside and
+//! Triangles are sorted into inside and
 //! outside by parity across the polygons' edges, not by where they lie.
 
+use super::stretch::Stretch;
 use super::trim::Node;
-use glam::DVec2;
 use spade::handles::FixedVertexHandle;
 use spade::{
     ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation,
@@ -15,10 +15,10 @@ struct Site(Point2<f64>);
 
 type Plane = ConstrainedDelaunayTriangulation<Site>;
 
-fn site(node: &Node, scale: DVec2) -> Site {
-    let p = node.uv * scale;
-    // The triangulation refuses numbers that are all but zero.
-    let snap = |x: f64| if x.abs() < 1e-60 { 0.0 } else { x };
+fn site(node: &Node, stretch: &Stretch) -> Site {
+    let p = stretch.place(node.uv);
+    // The triangulation refuses numbers that are all but zero (below 1e-42); in metres they are nothing.
+    let snap = |x: f64| if x.abs() < 1e-30 { 0.0 } else { x };
     Site(Point2::new(snap(p.x), snap(p.y)))
 }
 
@@ -33,7 +33,7 @@ impl HasPosition for Site {
 /// A polygon edge between nodes.
 pub(super) type Rim = [u32; 2];
 
-/// Triangulate the inside of `rims` over `nodes`. `scale` turns (u, v) into lengths. Triangles are
+/// Triangulate the inside of `rims` over `nodes`, in the plane of `stretch`. Triangles are
 /// counter-clockwise in (u, v). Nodes at the same (u, v) are one: the first. Nodes of the rims stand first
 /// among `nodes`; later ones that would lie right on a rim are left out.
 ///
@@ -42,14 +42,14 @@ pub(super) type Rim = [u32; 2];
 pub(super) fn triangles(
     nodes: &[Node],
     rims: &[Rim],
-    scale: DVec2,
+    stretch: &Stretch,
 ) -> Result<Vec<[u32; 3]>, usize> {
     let mut cdt = Plane::new();
     let bounds = rims.iter().flatten().max().map_or(0, |&last| last as usize + 1);
     let mut handles: Vec<FixedVertexHandle> = Vec::with_capacity(bounds);
     let mut first: Vec<u32> = Vec::with_capacity(nodes.len());
     for (i, n) in nodes[..bounds].iter().enumerate() {
-        let handle = cdt.insert(site(n, scale)).map_err(|_| i)?;
+        let handle = cdt.insert(site(n, stretch)).map_err(|_| i)?;
         if handle.index() == first.len() {
             first.push(i as u32);
         }
@@ -76,7 +76,7 @@ pub(super) fn triangles(
         uses.push((from.min(to), from.max(to)));
     }
     for (i, n) in nodes.iter().enumerate().skip(bounds) {
-        let site = site(n, scale);
+        let site = site(n, stretch);
         let on_rim = match cdt.locate(site.0) {
             PositionInTriangulation::OnEdge(e) => cdt.is_constraint_edge(e.as_undirected()),
             PositionInTriangulation::OnVertex(_) => true,
@@ -113,8 +113,14 @@ pub(super) fn triangles(
 
 #[cfg(test)]
 mod tests {
+    use super::super::shape::Shape;
     use super::super::trim::NEW;
     use super::*;
+    use glam::DVec2;
+
+    fn flat() -> Stretch {
+        Stretch::new(&Shape::Height(|_, _| [0.0; 3]), &[], DVec2::ZERO, DVec2::splat(4.0), 1.0)
+    }
 
     fn nodes(uv: &[(f64, f64)]) -> Vec<Node> {
         let node = |&(u, v): &(f64, f64)| {
@@ -141,7 +147,7 @@ mod tests {
         for hole in [hole.to_vec(), back] {
             let n = nodes(&[square.to_vec(), hole].concat());
             let rims = [ring(0, 4), ring(4, 8)].concat();
-            let t = triangles(&n, &rims, DVec2::ONE).unwrap();
+            let t = triangles(&n, &rims, &flat()).unwrap();
             assert!((area(&n, &t) - 15.0).abs() < 1e-12);
         }
     }
@@ -158,7 +164,7 @@ mod tests {
             (1., 3.),
             (0., 3.),
         ]);
-        let t = triangles(&n, &ring(0, 8), DVec2::ONE).unwrap();
+        let t = triangles(&n, &ring(0, 8), &flat()).unwrap();
         assert!((area(&n, &t) - 7.0).abs() < 1e-12);
     }
 
@@ -167,15 +173,15 @@ mod tests {
         let n = nodes(&[(0., 0.), (4., 0.), (4., 4.), (0., 4.), (2., 1.), (2., 2.)]);
         let mut rims = ring(0, 4);
         rims.extend([[4, 5], [5, 4]]);
-        let t = triangles(&n, &rims, DVec2::ONE).unwrap();
+        let t = triangles(&n, &rims, &flat()).unwrap();
         assert!((area(&n, &t) - 16.0).abs() < 1e-12);
     }
 
     #[test]
     fn crossing_polygon_is_an_error_not_a_panic() {
         let n = nodes(&[(0., 0.), (1., 1.), (1., 0.), (0., 1.)]);
-        assert!(triangles(&n, &ring(0, 4), DVec2::ONE).is_err());
+        assert!(triangles(&n, &ring(0, 4), &flat()).is_err());
         let n = nodes(&[(0., 0.), (f64::NAN, 1.), (1., 0.), (0., 1.)]);
-        assert!(triangles(&n, &ring(0, 4), DVec2::ONE).is_err());
+        assert!(triangles(&n, &ring(0, 4), &flat()).is_err());
     }
 }
