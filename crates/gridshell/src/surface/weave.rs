@@ -1,28 +1,34 @@
-//! Triangles of one face: constrained Delaunay in (u, v), scaled to the patch's mean metric.
+//! Triangles of one face: constrained Delaunay in the plane of its stretch.
 
+use super::stretch::Stretch;
 use super::trim::Node;
 use crate::math::delaunay;
-use glam::DVec2;
 
 pub(super) use crate::math::delaunay::Rim;
 
-/// Triangulate the inside of `rims` over `nodes`, as [`delaunay::triangles`]. `scale` turns (u, v) into lengths.
+/// Triangulate the inside of `rims` over `nodes`, as [`delaunay::triangles`], in the plane of `stretch`.
 ///
 /// # Errors
 /// The node near which polygons cross.
 pub(super) fn triangles(
     nodes: &[Node],
     rims: &[Rim],
-    scale: DVec2,
+    stretch: &Stretch,
 ) -> Result<Vec<[u32; 3]>, usize> {
-    let points: Vec<DVec2> = nodes.iter().map(|n| n.uv * scale).collect();
+    let points: Vec<_> = nodes.iter().map(|n| stretch.place(n.uv)).collect();
     delaunay::triangles(&points, rims)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::shape::Shape;
     use super::super::trim::NEW;
     use super::*;
+    use glam::DVec2;
+
+    fn flat() -> Stretch {
+        Stretch::new(&Shape::Height(|_, _| [0.0; 3]), &[], DVec2::ZERO, DVec2::splat(4.0), 1.0)
+    }
 
     fn nodes(uv: &[(f64, f64)]) -> Vec<Node> {
         let node = |&(u, v): &(f64, f64)| {
@@ -49,7 +55,7 @@ mod tests {
         for hole in [hole.to_vec(), back] {
             let n = nodes(&[square.to_vec(), hole].concat());
             let rims = [ring(0, 4), ring(4, 8)].concat();
-            let t = triangles(&n, &rims, DVec2::ONE).unwrap();
+            let t = triangles(&n, &rims, &flat()).unwrap();
             assert!((area(&n, &t) - 15.0).abs() < 1e-12);
         }
     }
@@ -66,7 +72,7 @@ mod tests {
             (1., 3.),
             (0., 3.),
         ]);
-        let t = triangles(&n, &ring(0, 8), DVec2::ONE).unwrap();
+        let t = triangles(&n, &ring(0, 8), &flat()).unwrap();
         assert!((area(&n, &t) - 7.0).abs() < 1e-12);
     }
 
@@ -75,15 +81,15 @@ mod tests {
         let n = nodes(&[(0., 0.), (4., 0.), (4., 4.), (0., 4.), (2., 1.), (2., 2.)]);
         let mut rims = ring(0, 4);
         rims.extend([[4, 5], [5, 4]]);
-        let t = triangles(&n, &rims, DVec2::ONE).unwrap();
+        let t = triangles(&n, &rims, &flat()).unwrap();
         assert!((area(&n, &t) - 16.0).abs() < 1e-12);
     }
 
     #[test]
     fn crossing_polygon_is_an_error_not_a_panic() {
         let n = nodes(&[(0., 0.), (1., 1.), (1., 0.), (0., 1.)]);
-        assert!(triangles(&n, &ring(0, 4), DVec2::ONE).is_err());
+        assert!(triangles(&n, &ring(0, 4), &flat()).is_err());
         let n = nodes(&[(0., 0.), (f64::NAN, 1.), (1., 0.), (0., 1.)]);
-        assert!(triangles(&n, &ring(0, 4), DVec2::ONE).is_err());
+        assert!(triangles(&n, &ring(0, 4), &flat()).is_err());
     }
 }
