@@ -1,1 +1,36 @@
-fn main() {}
+//! The project's own chores: `cargo xtask lint | test | cases FOLDER [NAME]...`.
+//!
+//! Everything here builds in the dev profile, so that the dependencies are compiled once; `cases` alone
+//! runs the release build, because it tells times.
+
+mod cases;
+mod check;
+
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+usage: cargo xtask CHORE
+  lint                    format, clippy and rustdoc, warnings denied
+  test                    lint, then every test, the documentation's included
+  cases FOLDER [NAME]...  a grid on every case in FOLDER's README.md table (or the named ones), as a table";
+
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    let result = match args.as_slice() {
+        ["lint"] => check::lint(),
+        ["test"] => check::lint().and_then(|()| check::test()),
+        ["cases", folder, names @ ..] => cases::run(folder.as_ref(), names),
+        _ => {
+            eprintln!("{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("xtask: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,7 +1,8 @@
 //! The triangular grid on a surface: topology, and where each node sits.
 
+use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::surface::{ChainPoint, Surface, SurfacePoint};
+use crate::surface::{ChainPoint, Locator, Surface, SurfacePoint};
 use glam::DVec3;
 
 /// Where a node sits on the surface.
@@ -26,7 +27,132 @@ pub struct Grid {
     pub xyz: Vec<DVec3>,
 }
 
+impl Grid {
+    /// Length of the member between nodes `a` and `b`, metres.
+    pub fn length(&self, a: u32, b: u32) -> f64 {
+        self.xyz[a as usize].distance(self.xyz[b as usize])
+    }
+
+    /// All positions, x y z of one node after the other.
+    pub fn flat_xyz(&self) -> Vec<f64> {
+        self.xyz.iter().flat_map(|p| p.to_array()).collect()
+    }
+
+    /// Move every node to the exact surface (and exact boundary) point that its place stands for.
+    pub fn settle_exactly(&mut self, surface: &Surface) {
+        for (p, place) in self.xyz.iter_mut().zip(&self.places) {
+            *p = place.exact(surface);
+        }
+    }
+
+    /// The part of `v` along which node `i` may move: in the tangent plane, along the boundary, not at all.
+    pub fn tangential(&self, surface: &Surface, i: usize, v: DVec3) -> DVec3 {
+        match &self.places[i] {
+            Place::Interior(p) => {
+                let n = surface.carrier.normal(p);
+                v - n * v.dot(n)
+            }
+            Place::Boundary(c) => {
+                let t = surface.loops[c.chain as usize].tangent(&surface.carrier, c.s);
+                t * v.dot(t)
+            }
+            Place::Corner(_) => DVec3::ZERO,
+        }
+    }
+
+    /// Slide node `i` by about `step` on the surface or along its loop, where it keeps a distance from its
+    /// neighbours on the loop; gives the distance moved, metres.
+    pub fn slide(&mut self, surface: &Surface, i: usize, step: DVec3) -> f64 {
+        let before = self.xyz[i];
+        match &mut self.places[i] {
+            Place::Interior(p) => {
+                *p = surface.carrier.trace(p, step);
+                self.xyz[i] = surface.carrier.xyz(p);
+            }
+            Place::Boundary(c) => {
+                let chain = &surface.loops[c.chain as usize];
+                let along = step.dot(chain.tangent(&surface.carrier, c.s));
+                let at = *c;
+                let along =
+                    along.clamp(-self.room(surface, i, at, false), self.room(surface, i, at, true));
+                let s = chain.wrap(at.s + along);
+                self.places[i] = Place::Boundary(ChainPoint { s, ..at });
+                self.xyz[i] = chain.xyz(&surface.carrier, s);
+            }
+            Place::Corner(_) => {}
+        }
+        self.xyz[i].distance(before)
+    }
+
+    /// How far boundary node `i` at `at` may slide forward (or back) along its loop: part of the way to the
+    /// next node there.
+    fn room(&self, surface: &Surface, i: usize, at: ChainPoint, forward: bool) -> f64 {
+        const SHARE: f64 = 0.4;
+        let v = i as u32;
+        let next =
+            if forward { self.mesh.next_on_boundary(v) } else { self.mesh.previous_on_boundary(v) };
+        let Some(Place::Boundary(other) | Place::Corner(other)) =
+            next.map(|n| self.places[n as usize])
+        else {
+            return 0.0;
+        };
+        let gap = if forward { other.s - at.s } else { at.s - other.s };
+        SHARE * surface.loops[at.chain as usize].wrap(gap)
+    }
+
+    /// The grid of these nodes and panels (oriented alike), each node with the place of `surface` nearest to
+    /// it; positions stay as they are. Panels that look inwards are turned to look outwards, all together.
+    ///
+    /// # Errors
+    /// [`Error::Surface`] when the panels are not a manifold, or the grid has a boundary and the surface
+    /// has none.
+    pub fn from_panels(xyz: Vec<DVec3>, panels: &[[u32; 3]], surface: &Surface) -> Result<Grid> {
+        let mesh = Mesh::from_triangles(xyz.len(), panels)?;
+        let locator = Locator::new(surface);
+        let place = |(v, &x): (usize, &DVec3)| {
+            if mesh.is_boundary(v as u32) {
+                locator.nearest_on_loops(x).map(Place::Boundary)
+            } else {
+                locator.nearest(x).map(Place::Interior)
+            }
+        };
+        let found: Option<Vec<_>> = xyz.iter().enumerate().map(place).collect();
+        let places = found.ok_or_else(|| {
+            Error::Surface(
+                "the grid has a boundary but the surface has none: is it the right surface?".into(),
+            )
+        })?;
+        let outwards = |t: &[u32; 3]| {
+            let p = t.map(|v| xyz[v as usize]);
+            let normal = surface.carrier.normal(&places[t[0] as usize].surface_point(surface));
+            (p[1] - p[0]).cross(p[2] - p[0]).dot(normal)
+        };
+        if panels.iter().map(outwards).sum::<f64>() >= 0.0 {
+            return Ok(Grid { mesh, places, xyz });
+        }
+        let turned: Vec<_> = panels.iter().map(|&[a, b, c]| [a, c, b]).collect();
+        Ok(Grid { mesh: Mesh::from_triangles(xyz.len(), &turned)?, places, xyz })
+    }
+
+    /// A grid that is its own surface: what can be measured when the design surface is not known.
+    ///
+    /// # Errors
+    /// [`Error::Surface`] when the panels are not a manifold.
+    pub fn alone(name: &str, xyz: Vec<DVec3>, panels: &[[u32; 3]]) -> Result<(Grid, Surface)> {
+        // Checked before the surface is made, which trusts its triangles.
+        Mesh::from_triangles(xyz.len(), panels)?;
+        let surface = Surface::from_facets(name, xyz.clone(), panels.to_vec());
+        let grid = Grid::from_panels(xyz, panels, &surface)?;
+        Ok((grid, surface))
+    }
+}
+
 impl Place {
+    /// Whether it lies on a boundary loop.
+    pub fn is_boundary(&self) -> bool {
+        !matches!(self, Place::Interior(_))
+    }
+
     /// The carrier point of this place.
     pub fn surface_point(&self, surface: &Surface) -> SurfacePoint {
         match self {

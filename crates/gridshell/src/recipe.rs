@@ -212,3 +212,120 @@ impl Recipe {
         Ok(recipe)
     }
 }
+
+/// More nodes than this are refused: time and memory would run out first.
+const MAX_NODES: f64 = 2e6;
+
+impl Recipe {
+    /// Check every value at the door.
+    ///
+    /// # Errors
+    /// [`Error::Option`] naming the first value out of range, and the range.
+    pub fn validate(&self) -> Result<()> {
+        let positive = |name: &str, value: f64| within(name, value, f64::MIN_POSITIVE, f64::MAX);
+        if let Some(l0) = self.edge_length {
+            positive("edge_length", l0)?;
+        }
+        if let Some(nodes) = self.nodes {
+            within("nodes", nodes as f64, 3.0, MAX_NODES)?;
+        }
+        within("corner_angle_deg", self.corner_angle_deg, 0.0, 180.0)?;
+        within("measure.lambda", self.measure.lambda, 0.0, 1.0)?;
+
+        let pack = &self.pack;
+        within("pack.k_n", pack.k_n, 0.1, 10.0)?;
+        within("pack.diameter", pack.diameter, 0.5, 3.0)?;
+        positive("pack.k_b", pack.k_b)?;
+        positive("pack.k_c", pack.k_c)?;
+        positive("pack.k_f", pack.k_f)?;
+        positive("pack.xi", pack.xi)?;
+        positive("pack.settled", pack.settled)?;
+        within("pack.draws", pack.draws as f64, 1.0, 1e6)?;
+
+        within("regularize.node_range", self.regularize.node_range, 0.0, 1.0)?;
+        within("regularize.candidates", self.regularize.candidates as f64, 1.0, 1e4)?;
+        within("relax.straightness", self.relax.straightness, 0.0, 100.0)?;
+        positive("relax.settled", self.relax.settled)
+    }
+
+    /// Check that members of `edge_length` metres on a surface of `area` square metres make a grid of a
+    /// size that can be worked with.
+    ///
+    /// # Errors
+    /// [`Error::Option`] with the least and the largest edge length for this surface.
+    pub fn check_edge_length(edge_length: f64, area: f64) -> Result<()> {
+        // Every node of the lattice takes two panels' area.
+        let per_node = 3f64.sqrt() / 2.0;
+        let least = (area / (per_node * MAX_NODES)).sqrt();
+        // A single panel.
+        let largest = (2.0 * area / per_node).sqrt();
+        if (least..=largest).contains(&edge_length) {
+            return Ok(());
+        }
+        Err(Error::Option(format!(
+            "an edge length of {edge_length} m does not suit a surface of {area:.3} m2: \
+             choose one between {least:.3e} and {largest:.3e} m"
+        )))
+    }
+}
+
+/// Refuse a value outside `low..=high`; NaN is outside of everything.
+fn within(name: &str, value: f64, low: f64, high: f64) -> Result<()> {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    let range = match (low == f64::MIN_POSITIVE, high == f64::MAX) {
+        (true, true) => "positive and finite".to_owned(),
+        _ => format!("between {low} and {high}"),
+    };
+    Err(Error::Option(format!("{name} is {value}: it must be {range}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_named_recipe_is_valid() {
+        for (name, _) in Recipe::METHODS {
+            Recipe::named(name).and_then(|r| r.validate()).expect(name);
+        }
+    }
+
+    #[test]
+    fn lengths_that_are_no_lengths_are_refused_by_name() {
+        for edge_length in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let error = Recipe { edge_length: Some(edge_length), ..Recipe::default() }.validate();
+            assert!(
+                error.is_err_and(|e| e.to_string().starts_with("edge_length is")),
+                "{edge_length}"
+            );
+        }
+    }
+
+    #[test]
+    fn counts_beyond_reason_are_refused() {
+        for nodes in [0, 2, 2_000_001, usize::MAX] {
+            assert!(
+                Recipe { nodes: Some(nodes), ..Recipe::default() }.validate().is_err(),
+                "{nodes}"
+            );
+        }
+    }
+
+    #[test]
+    fn an_edge_length_must_suit_the_surface() {
+        // 100 m2: 2 million nodes take 100 / (0.866 * 2e6), so members of 7.6 mm.
+        assert!(Recipe::check_edge_length(0.0077, 100.0).is_ok());
+        assert!(Recipe::check_edge_length(0.0075, 100.0).is_err());
+        // One equilateral panel of 100 m2 has sides of 15.197 m.
+        assert!(Recipe::check_edge_length(15.19, 100.0).is_ok());
+        assert!(Recipe::check_edge_length(15.20, 100.0).is_err());
+    }
+
+    #[test]
+    fn an_unknown_method_lists_the_known_ones() {
+        let error = Recipe::named("magic").expect_err("no such method");
+        assert!(error.to_string().contains("default, paper"));
+    }
+}

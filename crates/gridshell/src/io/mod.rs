@@ -72,14 +72,26 @@ pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
 /// # Errors
 /// [`Error::Io`], or [`Error::Option`] listing the known extensions for an unknown one.
 pub fn write(path: &Path, grid: &GridFile) -> Result<()> {
-    let bytes = match extension(path).as_str() {
-        "obj" => obj::encode(grid),
-        "ply" => ply::encode(grid),
-        "stl" => stl::encode(grid),
-        "off" => off::encode(grid),
-        _ => return Err(unknown(path, MESH_FORMATS)),
-    };
-    file::replace(path, &bytes)
+    let encode = encoder(path)?;
+    file::replace(path, &encode(grid))
+}
+
+/// Whether [`write`] knows a format for this path: to be asked before long work.
+///
+/// # Errors
+/// [`Error::Option`] listing the known extensions.
+pub fn check_output(path: &Path) -> Result<()> {
+    encoder(path).map(|_| ())
+}
+
+fn encoder(path: &Path) -> Result<fn(&GridFile) -> Vec<u8>> {
+    match extension(path).as_str() {
+        "obj" => Ok(obj::encode),
+        "ply" => Ok(ply::encode),
+        "stl" => Ok(stl::encode),
+        "off" => Ok(off::encode),
+        _ => Err(unknown(path, MESH_FORMATS)),
+    }
 }
 
 fn extension(path: &Path) -> String {

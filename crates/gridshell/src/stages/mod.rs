@@ -2,3 +2,7 @@
 //! knows their order.
 
 pub mod measure;
+pub mod pack;
+pub mod regularize;
+pub mod relax;
+pub mod triangulate;

@@ -9,9 +9,12 @@ pub mod brep;
 pub mod builtin;
 pub mod carrier;
 pub mod chain;
+pub mod chart;
 pub mod curve;
 mod ear;
+pub mod facets;
 mod fill;
+pub mod locate;
 pub mod model;
 pub mod nurbs;
 mod orient;
@@ -21,6 +24,7 @@ mod refine;
 mod sample;
 mod seam;
 pub mod shape;
+mod size;
 pub mod tessellate;
 mod trim;
 mod weave;
@@ -29,6 +33,7 @@ pub use brep::Brep;
 pub use carrier::{Carrier, SurfacePoint};
 pub use chain::{Chain, ChainPoint};
 pub use curve::Curve;
+pub use locate::Locator;
 pub use model::{Model, PolygonMesh, Sampling};
 pub use shape::Shape;
 pub use tessellate::tessellate;
@@ -52,6 +57,13 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// V - E + F of the carrier.
+    pub fn euler_characteristic(&self) -> i64 {
+        let faces = self.carrier.triangles.len();
+        let open = self.carrier.neighbors.iter().flatten().filter(|&&n| n == carrier::NONE).count();
+        self.carrier.points.len() as i64 - ((3 * faces + open) / 2) as i64 + faces as i64
+    }
+
     /// The exact point of the design surface that the carrier point stands for: the patch evaluated at
     /// the interpolated parameters. On a mesh, the carrier point itself.
     pub fn exact(&self, point: &SurfacePoint) -> DVec3 {

@@ -1,0 +1,114 @@
+//! The arguments.
+
+use clap::{Args as ClapArgs, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Triangular grids for free-form gridshells.
+#[derive(Parser)]
+#[command(
+    name = "gridshell",
+    version,
+    arg_required_else_help = true,
+    after_help = "Exit codes: 0 done, 2 usage, 3 input that cannot be used, 4 no valid grid, \
+                  5 stopped by a limit or a signal (the best grid so far is written)."
+)]
+pub struct Args {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Lay a grid on a surface.
+    Generate(Generate),
+    /// Measure a grid.
+    Measure(Measure),
+    /// Tell what a surface is: patches, loops, corners, area, box, units, gaps.
+    Inspect(Inspect),
+    /// List the built-in surfaces, with a sensible edge length each.
+    Surfaces,
+}
+
+#[derive(ClapArgs)]
+pub struct Generate {
+    /// A file (STEP, OBJ, PLY, STL, OFF) or the name of a built-in surface.
+    #[arg(default_value = "great-court")]
+    pub surface: String,
+    /// Wanted length of the members, metres.
+    #[arg(short = 'l', long, value_name = "L", value_parser = positive, conflicts_with = "nodes", allow_negative_numbers = true)]
+    pub edge_length: Option<f64>,
+    /// Wanted number of nodes.
+    #[arg(short, long, value_name = "N")]
+    pub nodes: Option<usize>,
+    /// Seed of every random choice.
+    #[arg(short, long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// Method: `default`, or `paper` for the method as printed.
+    #[arg(short, long, value_name = "NAME")]
+    pub method: Option<String>,
+    /// Recipe with all options; flags override it.
+    #[arg(short, long, value_name = "FILE.toml")]
+    pub recipe: Option<PathBuf>,
+    /// Where to write the grid (OBJ, PLY, STL, OFF by extension); may be given more than once.
+    /// Without it, <name>.obj in the current folder.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+    /// Print one JSON document on stdout, and nothing else there.
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads; the grid does not depend on it.
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Stop after so long and write the best grid so far.
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
+    pub time_limit: Option<f64>,
+}
+
+#[derive(ClapArgs)]
+pub struct Measure {
+    /// A grid: a triangle mesh (OBJ, PLY, STL, OFF).
+    pub grid: PathBuf,
+    /// The surface it was laid on: a file or a built-in name. Without it the grid itself is the surface.
+    #[arg(short, long, value_name = "SURFACE")]
+    pub surface: Option<String>,
+    /// Print one JSON document on stdout, and nothing else there.
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(ClapArgs)]
+pub struct Inspect {
+    /// A file (STEP, OBJ, PLY, STL, OFF) or the name of a built-in surface.
+    pub surface: String,
+    /// Print one JSON document on stdout, and nothing else there.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A positive number that is no infinity; a billion of anything is enough.
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x <= 1e9 => Ok(x),
+        Ok(_) => Err("it must be positive, and at most a billion".to_owned()),
+        Err(_) => Err("it must be a number".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn lengths_that_are_no_lengths_are_refused() {
+        for text in ["0", "-1", "nan", "inf", "1e300", "two"] {
+            assert!(positive(text).is_err(), "{text}");
+        }
+        assert_eq!(positive("2.12"), Ok(2.12));
+    }
+}

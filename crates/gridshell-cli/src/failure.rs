@@ -1,0 +1,51 @@
+//! Errors in the words and exit codes of the command.
+
+use gridshell::Error;
+use std::fmt::Display;
+use std::path::Path;
+
+/// An output could not be written, or something unforeseen.
+const FAILED: u8 = 1;
+const USAGE: u8 = 2;
+const INPUT: u8 = 3;
+const NO_GRID: u8 = 4;
+/// Exit code of a run that a limit or a signal ended.
+pub const STOPPED: u8 = 5;
+
+/// Why the command gives up, and its exit code.
+#[derive(Debug)]
+pub struct Failure {
+    pub code: u8,
+    pub message: String,
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        let code = match &error {
+            Error::Option(_) => USAGE,
+            Error::NoGrid { .. } => NO_GRID,
+            Error::Io { .. } | Error::Parse { .. } | Error::Surface(_) => INPUT,
+        };
+        Failure { code, message: error.to_string() }
+    }
+}
+
+impl Failure {
+    pub fn usage(message: impl Display) -> Failure {
+        Failure { code: USAGE, message: message.to_string() }
+    }
+
+    /// For whatever went wrong while opening the input, a name that is none included.
+    pub fn of_input(error: Error) -> Failure {
+        Failure { code: INPUT, message: error.to_string() }
+    }
+
+    pub fn input(path: &Path, message: impl Display) -> Failure {
+        Failure { code: INPUT, message: format!("{}: {message}", path.display()) }
+    }
+
+    /// For errors after the input has been accepted.
+    pub fn other(message: impl Display) -> Failure {
+        Failure { code: FAILED, message: message.to_string() }
+    }
+}

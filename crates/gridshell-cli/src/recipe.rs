@@ -1,0 +1,53 @@
+//! The recipe of a run: a named method, then the file, then the flags.
+
+use crate::args::Generate;
+use crate::failure::Failure;
+use gridshell::recipe::Recipe;
+use std::path::Path;
+use toml::{Table, Value};
+
+/// Larger files are no recipes.
+const MAX_BYTES: u64 = 1 << 20;
+
+/// The recipe that the arguments ask for, checked.
+pub fn from_args(args: &Generate) -> Result<Recipe, Failure> {
+    let mut recipe = Recipe::named(args.method.as_deref().unwrap_or("default"))?;
+    if let Some(path) = &args.recipe {
+        recipe = overlay(&recipe, path)?;
+    }
+    if args.edge_length.is_some() || args.nodes.is_some() {
+        recipe.edge_length = args.edge_length;
+        recipe.nodes = args.nodes;
+    }
+    if let Some(seed) = args.seed {
+        recipe.seed = seed;
+    }
+    recipe.validate()?;
+    Ok(recipe)
+}
+
+/// The recipe with what the file says laid over it.
+fn overlay(recipe: &Recipe, path: &Path) -> Result<Recipe, Failure> {
+    let size = std::fs::metadata(path).map_err(|e| Failure::input(path, e))?.len();
+    if size > MAX_BYTES {
+        return Err(Failure::input(path, "this is too large for a recipe"));
+    }
+    let text = std::fs::read_to_string(path).map_err(|e| Failure::input(path, e))?;
+    let over: Table = toml::from_str(&text).map_err(|e| Failure::input(path, e))?;
+    // Read once on its own: errors then point to the line in the user's file.
+    toml::from_str::<Recipe>(&text).map_err(|e| Failure::input(path, e))?;
+    let mut table = Table::try_from(recipe).map_err(Failure::other)?;
+    lay_over(&mut table, over);
+    table.try_into().map_err(|e| Failure::input(path, e))
+}
+
+fn lay_over(under: &mut Table, over: Table) {
+    for (key, value) in over {
+        match (under.get_mut(&key), value) {
+            (Some(Value::Table(under)), Value::Table(over)) => lay_over(under, over),
+            (_, value) => {
+                under.insert(key, value);
+            }
+        }
+    }
+}

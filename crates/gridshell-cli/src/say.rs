@@ -1,0 +1,26 @@
+//! Writing to the terminal: results to stdout, everything else to stderr.
+
+use crate::failure::Failure;
+use serde::Serialize;
+use std::io::{ErrorKind, Write, stdout};
+
+/// Print a result. A reader that has gone away is no failure.
+pub fn result(text: &str) -> Result<(), Failure> {
+    let mut out = stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::other(format!("stdout: {e}"))),
+        _ => Ok(()),
+    }
+}
+
+/// Print a document.
+pub fn json(document: &impl Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string(document).map_err(Failure::other)?;
+    result(&(text + "\n"))
+}
+
+/// Tell the user something beside the result.
+pub fn note(text: &str) {
+    // Nobody to tell is no failure.
+    let _ = writeln!(std::io::stderr(), "{text}");
+}

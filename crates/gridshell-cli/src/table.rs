@@ -1,0 +1,141 @@
+//! Tables for people, after Table 3 of the paper.
+
+use gridshell::run::{Run, SurfaceSummary};
+use gridshell::stages::measure::Quality;
+use std::fmt::Write;
+
+const HEADER: &str = "\
+stage          nodes  mean l       r       q      mu   delta       Q   irregular  seconds
+                           m                             deg          in  border
+";
+
+/// One run: the surface, a row per stage, the checks, the warnings.
+pub fn run(run: &Run) -> String {
+    let mut text = format!("{}\n", surface_line(&run.surface));
+    let _ = writeln!(text, "edge length {:.4} m, seed {}\n", run.edge_length, run.seed);
+    text += HEADER;
+    for stage in &run.stages {
+        text += &row(stage.name, stage.quality.as_ref(), Some(stage.seconds));
+        if !stage.converged {
+            text += "  (stopped at a limit)";
+        }
+        text += "\n";
+    }
+    text += "\n";
+    text += &checks(&run.quality);
+    for warning in &run.warnings {
+        let _ = writeln!(text, "warning: {warning}");
+    }
+    if run.stopped {
+        text += "stopped early: this is the best grid so far\n";
+    }
+    text
+}
+
+/// One grid.
+pub fn grid(name: &str, quality: &Quality) -> String {
+    format!("{HEADER}{}\n\n{}", row(name, Some(quality), None), checks(quality))
+}
+
+/// One surface.
+pub fn surface(s: &SurfaceSummary) -> String {
+    let mut text = format!("{}\n", surface_line(s));
+    for (k, boundary) in s.boundaries.iter().enumerate() {
+        let _ = writeln!(
+            text,
+            "loop {k}: {:.4} m, {}",
+            boundary.length,
+            count(boundary.corners, "corner")
+        );
+    }
+    let [a, b] = [s.bounds.min, s.bounds.max];
+    let _ = writeln!(
+        text,
+        "box: x {:.4} to {:.4}, y {:.4} to {:.4}, z {:.4} to {:.4} m",
+        a[0], b[0], a[1], b[1], a[2], b[2]
+    );
+    let _ = writeln!(text, "unit of the file: {} m", s.unit_in_metres);
+    let _ = writeln!(text, "largest gap: {:.1e} m", s.gap);
+    for note in &s.notes {
+        let _ = writeln!(text, "note: {note}");
+    }
+    text
+}
+
+fn surface_line(s: &SurfaceSummary) -> String {
+    let patches = if s.patches == 0 { "mesh".to_owned() } else { count(s.patches, "patch") };
+    format!(
+        "{}: {patches}, {:.4} m2, {}, {}",
+        s.name,
+        s.area,
+        count(s.loops, "loop"),
+        count(s.corners, "corner")
+    )
+}
+
+fn row(name: &str, quality: Option<&Quality>, seconds: Option<f64>) -> String {
+    let seconds = seconds.map_or_else(|| "-".to_owned(), |s| format!("{s:.2}"));
+    let Some(q) = quality else {
+        return format!(
+            "{name:12} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>3} {:>7} {seconds:>8}",
+            "-", "-", "-", "-", "-", "-", "-", "-", "-"
+        );
+    };
+    let fluency = q.fluency.map_or_else(|| "inf".to_owned(), |f| format!("{f:.2}"));
+    format!(
+        "{name:12} {:7} {:7.3} {:7.4} {:7.3} {:7.3} {:7.2} {fluency:>7} {:3} {:7} {seconds:>8}",
+        q.nodes,
+        q.edge_length.mean,
+        q.edge_length.cv,
+        q.shape.mean,
+        q.mu,
+        q.delta_deg,
+        q.irregular.interior,
+        q.irregular.boundary,
+    )
+}
+
+/// What guards the fluency: the floors, and whether the grid still is the surface.
+fn checks(q: &Quality) -> String {
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
+        "{}, {}, {}; {} inside, {} on the border; Euler characteristic {}",
+        count(q.nodes, "node"),
+        count(q.members, "member"),
+        count(q.panels, "panel"),
+        q.interior_nodes,
+        q.boundary_nodes,
+        q.euler_characteristic
+    );
+    let _ = writeln!(text, "floors: mu {:.3}, delta {:.2} deg", q.mu_floor, q.delta_floor_deg);
+    let _ = writeln!(
+        text,
+        "members {:.3} to {:.3} m; least q {:.3}, least angle {:.1} deg",
+        q.edge_length.min, q.edge_length.max, q.shape.min, q.min_angle_deg
+    );
+    let _ =
+        writeln!(text, "border: r {:.4}, q {:.3}", q.border.edge_length_cv, q.border.shape_mean);
+    let _ = writeln!(
+        text,
+        "area ratio {:.4}; off the surface {:.1e} l0, off the boundary {:.1e} l0",
+        q.area_ratio, q.surface_deviation, q.boundary_deviation
+    );
+    if q.bridging_members + q.folded_panels > 0 {
+        let _ = writeln!(
+            text,
+            "faults: {}, {}",
+            count(q.bridging_members, "bridging member"),
+            count(q.folded_panels, "folded panel")
+        );
+    }
+    text
+}
+
+fn count(n: usize, noun: &str) -> String {
+    match (n, noun) {
+        (1, _) => format!("1 {noun}"),
+        (_, "patch") => format!("{n} patches"),
+        _ => format!("{n} {noun}s"),
+    }
+}

@@ -1,0 +1,264 @@
+//! The command as its users meet it: exit codes, what is printed where, what is written.
+
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+/// Run `gridshell` in `folder` with these arguments, split at spaces.
+fn gridshell(folder: &Path, args: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_gridshell"))
+        .args(args.split_whitespace())
+        .current_dir(folder)
+        .output()
+        .expect("the command starts")
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().expect("a folder for the test")
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("ended by itself")
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).expect("UTF-8")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).expect("UTF-8")
+}
+
+fn document(output: &Output) -> Value {
+    assert_eq!(code(output), 0, "{}", stderr(output));
+    serde_json::from_str(&stdout(output)).expect("one JSON document and nothing else")
+}
+
+/// A hexagon of six equilateral panels of side 1, and its file.
+fn write_hexagon(folder: &Path) {
+    let h = 0.75f64.sqrt();
+    let mut text = "v 0 0 0\n".to_owned();
+    for (x, y) in [(1.0, 0.0), (0.5, h), (-0.5, h), (-1.0, 0.0), (-0.5, -h), (0.5, -h)] {
+        text += &format!("v {x} {y} 0\n");
+    }
+    for k in 0..6 {
+        text += &format!("f 1 {} {}\n", 2 + k, 2 + (k + 1) % 6);
+    }
+    fs::write(folder.join("six.obj"), text).expect("written");
+}
+
+#[test]
+fn usage_errors_leave_with_2() {
+    let folder = folder();
+    for args in [
+        "",
+        "conjure",
+        "generate hexagon --edge-length 0",
+        "generate hexagon --edge-length -1",
+        "generate hexagon --edge-length nan",
+        "generate hexagon --edge-length 1 --nodes 61",
+        "generate hexagon --nodes 0",
+        "generate hexagon --nodes 999999999999",
+        "generate hexagon --threads 0",
+        "generate hexagon --time-limit 0",
+        "generate hexagon --method magic",
+        "generate hexagon -o grid.docx",
+        "generate hexagon -o nowhere/grid.obj",
+    ] {
+        let output = gridshell(folder.path(), args);
+        assert_eq!(code(&output), 2, "{args}: {}", stderr(&output));
+        assert!(!output.stderr.is_empty() && output.stdout.is_empty(), "{args}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("readable").count(), 0, "nothing was written");
+}
+
+#[test]
+fn inputs_that_cannot_be_used_leave_with_3() {
+    let folder = folder();
+    fs::write(folder.path().join("broken.obj"), "v 0 0\nf 1 2 9\n").expect("written");
+    fs::write(folder.path().join("drawing.docx"), "no surface").expect("written");
+    fs::write(folder.path().join("square.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        .expect("written");
+    fs::write(folder.path().join("bad.toml"), "[pack]\ndrews = 3\n").expect("written");
+    for args in [
+        "generate great-cart",
+        "generate broken.obj",
+        "generate drawing.docx",
+        "generate hexagon --recipe bad.toml",
+        "generate hexagon --recipe none.toml",
+        "inspect none.step",
+        "measure none.obj",
+        "measure broken.obj",
+        "measure square.obj",
+    ] {
+        let output = gridshell(folder.path(), args);
+        assert_eq!(code(&output), 3, "{args}: {}", stderr(&output));
+        assert!(stderr(&output).starts_with("gridshell: "), "{args}: {}", stderr(&output));
+        assert!(output.stdout.is_empty(), "{args}");
+    }
+}
+
+#[test]
+fn an_unknown_surface_is_answered_with_the_known_ones() {
+    let output = gridshell(folder().path(), "generate great-cart");
+    assert!(stderr(&output).contains("great-court"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_misspelt_option_in_a_recipe_is_shown_with_its_line() {
+    let folder = folder();
+    fs::write(folder.path().join("bad.toml"), "seed = 3\n[pack]\ndrews = 3\n").expect("written");
+    let output = gridshell(folder.path(), "generate hexagon --recipe bad.toml");
+    assert!(
+        stderr(&output).contains("line 3") && stderr(&output).contains("draws"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn surfaces_lists_the_built_in_ones() {
+    let output = gridshell(folder().path(), "surfaces");
+    assert_eq!(code(&output), 0);
+    for name in
+        ["great-court", "hexagon", "dome", "saddle", "barrel", "torus", "sphere", "roof", "facade"]
+    {
+        assert!(stdout(&output).lines().any(|l| l.starts_with(name)), "{name}");
+    }
+}
+
+#[test]
+fn a_grid_is_measured_by_itself() {
+    let folder = folder();
+    write_hexagon(folder.path());
+    let document = document(&gridshell(folder.path(), "measure six.obj --json"));
+    assert_eq!(document["schema"], "gridshell.measure/1");
+    let quality = &document["quality"];
+    assert_eq!((quality["nodes"].as_u64(), quality["panels"].as_u64()), (Some(7), Some(6)));
+    assert_eq!(quality["mu"], 0.0);
+    assert!(quality["fluency"].is_null(), "infinite on a perfect lattice");
+    let people = gridshell(folder.path(), "measure six.obj");
+    assert_eq!(code(&people), 0);
+    assert!(stdout(&people).contains("7 nodes, 12 members, 6 panels"), "{}", stdout(&people));
+}
+
+#[test]
+fn a_mesh_is_inspected() {
+    let folder = folder();
+    write_hexagon(folder.path());
+    let document = document(&gridshell(folder.path(), "inspect six.obj --json"));
+    let surface = &document["surface"];
+    assert_eq!((surface["loops"].as_u64(), surface["corners"].as_u64()), (Some(1), Some(6)));
+    assert!((surface["area"].as_f64().expect("a number") - 1.5 * 3f64.sqrt()).abs() < 1e-9);
+    assert_eq!(surface["box"]["max"][0], 1.0);
+}
+
+#[test]
+fn a_run_prints_one_document_and_writes_every_output() {
+    let folder = folder();
+    let run = gridshell(
+        folder.path(),
+        "generate hexagon --edge-length 1 --json -o a.obj -o b.ply -o c.stl -o d.off",
+    );
+    let document = document(&run);
+    assert_eq!(document["schema"], "gridshell.run/1");
+    assert_eq!((&document["seed"], &document["units"]), (&Value::from(1), &Value::from("m")));
+    let names: Vec<_> =
+        document["stages"].as_array().expect("a list").iter().map(|s| s["name"].clone()).collect();
+    assert_eq!(names, ["pack", "triangulate", "regularize", "relax"]);
+    let quality = document["quality"].as_object().expect("an object");
+    for field in [
+        "nodes",
+        "members",
+        "panels",
+        "interior_nodes",
+        "boundary_nodes",
+        "euler_characteristic",
+        "edge_length",
+        "shape",
+        "irregular",
+        "mu",
+        "mu_floor",
+        "delta_deg",
+        "delta_floor_deg",
+        "rho",
+        "fluency",
+        "area_ratio",
+        "surface_deviation",
+        "boundary_deviation",
+        "min_angle_deg",
+    ] {
+        assert!(quality.contains_key(field), "{field}");
+    }
+    for file in ["a.obj", "b.ply", "c.stl", "d.off"] {
+        let measured = gridshell(folder.path(), &format!("measure {file} --json"));
+        assert_eq!(self::document(&measured)["quality"]["nodes"], quality["nodes"], "{file}");
+    }
+}
+
+#[test]
+fn without_an_output_the_grid_goes_to_the_current_folder_and_says_so() {
+    let folder = folder();
+    let run = gridshell(folder.path(), "generate hexagon --edge-length 1");
+    assert_eq!(code(&run), 0, "{}", stderr(&run));
+    assert!(stdout(&run).contains("wrote hexagon.obj"), "{}", stdout(&run));
+    assert!(folder.path().join("hexagon.obj").is_file());
+    for stage in ["pack", "triangulate", "regularize", "relax"] {
+        assert!(stdout(&run).lines().any(|l| l.starts_with(stage)), "{stage}");
+    }
+}
+
+#[test]
+fn a_design_mesh_in_the_current_folder_is_not_overwritten_unasked() {
+    let folder = folder();
+    write_hexagon(folder.path());
+    let before = fs::read(folder.path().join("six.obj")).expect("readable");
+    let run = gridshell(folder.path(), "generate six.obj --edge-length 0.5");
+    assert_eq!(code(&run), 0, "{}", stderr(&run));
+    assert_eq!(fs::read(folder.path().join("six.obj")).expect("readable"), before);
+    assert!(folder.path().join("six-grid.obj").is_file());
+}
+
+#[test]
+fn a_time_limit_leaves_with_5_and_the_best_grid_so_far() {
+    let folder = folder();
+    let run = gridshell(
+        folder.path(),
+        "generate hexagon --edge-length 0.25 --time-limit 0.001 -o early.obj",
+    );
+    assert_eq!(code(&run), 5, "{}", stderr(&run));
+    let measured = document(&gridshell(folder.path(), "measure early.obj --json"));
+    assert_eq!(measured["quality"]["euler_characteristic"], 1);
+}
+
+#[test]
+fn flags_override_the_recipe_and_the_rest_of_it_stands() {
+    let folder = folder();
+    fs::write(
+        folder.path().join("r.toml"),
+        "seed = 7\nedge_length = 2.0\n[measure]\nlambda = 0.8\n",
+    )
+    .expect("written");
+    let run = document(&gridshell(
+        folder.path(),
+        "generate hexagon --recipe r.toml --edge-length 1 --json",
+    ));
+    assert_eq!((&run["seed"], &run["edge_length"]), (&Value::from(7), &Value::from(1.0)));
+    assert_eq!(run["recipe"]["measure"]["lambda"], 0.8);
+}
+
+#[test]
+fn threads_do_not_change_a_byte() {
+    let folder = folder();
+    for n in [1, 2] {
+        let run = gridshell(
+            folder.path(),
+            &format!("generate hexagon --edge-length 0.7 --threads {n} -o {n}.obj"),
+        );
+        assert_eq!(code(&run), 0, "{}", stderr(&run));
+    }
+    let read = |name: &str| fs::read(folder.path().join(name)).expect("written");
+    assert!(read("1.obj") == read("2.obj"));
+}

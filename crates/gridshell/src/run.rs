@@ -1,0 +1,150 @@
+//! What a run gives: every stage's grid and quality, and the document that every face of gridshell prints.
+//!
+//! Serialised, a [`Run`] is the document `gridshell.run/1`; the grids themselves are left out of it.
+
+use crate::grid::Grid;
+use crate::recipe::Recipe;
+use crate::stages::measure::{IrregularNode, Quality};
+use crate::surface::{Model, Surface};
+use glam::DVec3;
+use serde::Serialize;
+
+/// Name and version of the run document.
+pub const SCHEMA: &str = "gridshell.run/1";
+
+/// All that came of one run. Metres.
+#[derive(Clone, Debug, Serialize)]
+pub struct Run {
+    /// [`SCHEMA`].
+    pub schema: &'static str,
+    /// Version of this library.
+    pub version: &'static str,
+    /// Seed of every random choice.
+    pub seed: u64,
+    /// Unit of all lengths: `m`.
+    pub units: &'static str,
+    /// The design surface.
+    pub surface: SurfaceSummary,
+    /// Member length l0 that was aimed at, metres.
+    pub edge_length: f64,
+    /// The recipe, complete.
+    pub recipe: Recipe,
+    /// The stages in their order.
+    pub stages: Vec<StageReport>,
+    /// Measures of the final grid.
+    pub quality: Quality,
+    /// The irregular nodes that remain.
+    pub irregular: Vec<IrregularNode>,
+    /// What the user should know: repaired input, stages that did not converge, limits that were met.
+    pub warnings: Vec<String>,
+    /// Whether a limit or a signal stopped it early; the grid is then the best so far.
+    pub stopped: bool,
+    /// The final grid.
+    #[serde(skip)]
+    pub grid: Grid,
+}
+
+/// What one stage did.
+#[derive(Clone, Debug, Serialize)]
+pub struct StageReport {
+    /// `pack`, `triangulate`, `regularize` or `relax`.
+    pub name: &'static str,
+    /// Time it took.
+    pub seconds: f64,
+    /// Whether it came to its own end rather than to a limit.
+    pub converged: bool,
+    /// Measures of its grid; None where there is none yet.
+    pub quality: Option<Quality>,
+    /// What it did, for the user.
+    pub notes: Vec<String>,
+    /// Its grid.
+    #[serde(skip)]
+    pub grid: Option<Grid>,
+}
+
+/// A design surface in a few figures. Metres.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SurfaceSummary {
+    /// Built-in name or file stem.
+    pub name: String,
+    /// Area in square metres.
+    pub area: f64,
+    /// Number of exact patches; 0 for a mesh.
+    pub patches: usize,
+    /// Number of boundary loops.
+    pub loops: usize,
+    /// Number of corners on all loops.
+    pub corners: usize,
+    /// The loops one by one.
+    pub boundaries: Vec<Boundary>,
+    /// Least and largest coordinates.
+    #[serde(rename = "box")]
+    pub bounds: Bounds,
+    /// Length of the file's unit in metres.
+    pub unit_in_metres: f64,
+    /// Largest distance between an edge's end and its vertex; how well the file's patches join.
+    pub gap: f64,
+    /// What was skipped or repaired while reading.
+    pub notes: Vec<String>,
+}
+
+/// One boundary loop.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Boundary {
+    /// Length, metres.
+    pub length: f64,
+    /// Number of corners.
+    pub corners: usize,
+}
+
+/// An axis-parallel box.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Bounds {
+    /// Least x, y, z.
+    pub min: [f64; 3],
+    /// Largest x, y, z.
+    pub max: [f64; 3],
+}
+
+impl SurfaceSummary {
+    /// The figures of `surface`, which was made from `model`.
+    pub fn new(model: &Model, surface: &Surface) -> SurfaceSummary {
+        let (unit_in_metres, gap, notes) = match model {
+            Model::Brep(brep) => (brep.unit_in_metres, largest_gap(brep), &brep.notes),
+            Model::Mesh(mesh) => (1.0, 0.0, &mesh.notes),
+        };
+        let boundaries: Vec<_> = surface
+            .loops
+            .iter()
+            .map(|l| Boundary { length: l.length(), corners: l.corners.len() })
+            .collect();
+        SurfaceSummary {
+            name: surface.name.clone(),
+            area: surface.area,
+            patches: surface.shapes.len(),
+            loops: boundaries.len(),
+            corners: boundaries.iter().map(|b| b.corners).sum(),
+            boundaries,
+            bounds: Bounds::of(&surface.carrier.points),
+            unit_in_metres,
+            gap,
+            notes: notes.clone(),
+        }
+    }
+}
+
+impl Bounds {
+    /// The box of these points; zero without any.
+    pub fn of(points: &[DVec3]) -> Bounds {
+        let Some(&first) = points.first() else { return Bounds { min: [0.0; 3], max: [0.0; 3] } };
+        let (min, max) = points.iter().fold((first, first), |(lo, hi), &p| (lo.min(p), hi.max(p)));
+        Bounds { min: min.to_array(), max: max.to_array() }
+    }
+}
+
+fn largest_gap(brep: &crate::surface::Brep) -> f64 {
+    let gaps = brep.edges.iter().flat_map(|e| {
+        [0, 1].map(|i| e.curve.point(e.range[i]).distance(brep.vertices[e.ends[i] as usize]))
+    });
+    gaps.fold(0.0, f64::max)
+}

@@ -1,0 +1,34 @@
+//! A random start: points spread evenly by chance over the surface's area.
+
+use crate::surface::{Surface, SurfacePoint};
+
+/// Number of interior bubbles for an edge length, Eq. 1 with the boundary and the Euler characteristic
+/// accounted for: n = k_n A / (2 A0) - n_b / 2 + chi (the perfect hexagon of 61 nodes asks for this).
+pub fn interior_count(surface: &Surface, boundary: usize, edge_length: f64, k_n: f64) -> usize {
+    let triangle = 3f64.sqrt() / 4.0 * edge_length * edge_length;
+    let chi = surface.euler_characteristic() as f64;
+    let count = k_n * surface.area / (2.0 * triangle) - boundary as f64 / 2.0 + chi;
+    count.round().max(0.0) as usize
+}
+
+/// `count` random points, uniform over the carrier's area.
+pub fn scatter(surface: &Surface, count: usize, rng: &mut fastrand::Rng) -> Vec<SurfacePoint> {
+    let carrier = &surface.carrier;
+    let mut sums = Vec::with_capacity(carrier.triangles.len());
+    let mut sum = 0.0;
+    for t in 0..carrier.triangles.len() as u32 {
+        sum += carrier.triangle_area(t);
+        sums.push(sum);
+    }
+    (0..count)
+        .map(|_| {
+            let at = rng.f64() * sum;
+            let triangle = sums.partition_point(|&s| s <= at).min(sums.len() - 1) as u32;
+            let (mut u, mut v) = (rng.f64(), rng.f64());
+            if u + v > 1.0 {
+                (u, v) = (1.0 - u, 1.0 - v);
+            }
+            SurfacePoint { triangle, bary: [1.0 - u - v, u, v] }
+        })
+        .collect()
+}

@@ -1,0 +1,45 @@
+//! Regularize (Section 5): change connectivity so that fewer nodes are irregular.
+
+mod paper;
+mod search;
+mod state;
+
+use crate::grid::Grid;
+use crate::job::Job;
+use crate::recipe::{Recipe, RegularizeMethod};
+use crate::surface::Surface;
+use state::State;
+
+/// What regularizing did.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Report {
+    /// Edges flipped.
+    pub flips: usize,
+    /// Edges collapsed.
+    pub collapses: usize,
+    /// Edges split.
+    pub splits: usize,
+    /// Pairs drifted.
+    pub drifts: usize,
+    /// Operations refused by topology, node range or panel shape, or found to be worse.
+    pub refused: usize,
+    /// No operation is left that the method would make.
+    pub converged: bool,
+}
+
+/// Regularize a grid for members of `length` metres by the recipe's method.
+pub fn regularize(
+    surface: &Surface,
+    grid: Grid,
+    length: f64,
+    recipe: &Recipe,
+    seed: u64,
+    job: &Job,
+) -> (Grid, Report) {
+    let mut state = State::new(surface, grid, length, recipe.measure.lambda);
+    let mut report = paper::algorithm1(&mut state, &recipe.regularize, job);
+    if recipe.regularize.method == RegularizeMethod::Search {
+        search::anneal(&mut state, &recipe.regularize, seed, job, &mut report);
+    }
+    (state.into_grid(), report)
+}

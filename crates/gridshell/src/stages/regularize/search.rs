@@ -1,0 +1,174 @@
+//! Annealed search over edge operations: pick an irregular vertex, try one flip, collapse or split near it,
+//! relax its surroundings, keep it or take it back.
+//!
+//! The objective is E = sum over members (l / l0 - 1)^2 + w R: equal lengths and regular nodes at once. Irregular
+//! nodes are charges; flips let a black and white pair glide, collapse and split let it climb, and at some
+//! temperature they wander until they meet their opposites or leave through the boundary.
+
+use super::Report;
+use super::state::State;
+use crate::job::Job;
+use crate::math::trig::{exp, ln};
+use crate::recipe::Regularize;
+
+/// Weight w of the residual against the spread of lengths.
+const WEIGHT: f64 = 0.6;
+/// First and last temperature.
+const HOT: f64 = 0.25;
+const COLD: f64 = 0.01;
+/// Rounds of the schedule, each ended by sweeps over all nodes.
+const ROUNDS: usize = 4;
+/// Panels below this shape index are refused.
+const LEAST_SHAPE: f64 = 0.55;
+/// What relaxing may at best win back of the lengths' energy after an operation that raises R.
+const HOPE: f64 = 0.6;
+
+/// An operation on the edge (a, b).
+#[derive(Clone, Copy)]
+enum Operation {
+    Flip,
+    Collapse,
+    Split,
+}
+
+/// Anneal `state`.
+pub fn anneal(state: &mut State, options: &Regularize, seed: u64, job: &Job, report: &mut Report) {
+    let mut rng = fastrand::Rng::with_seed(seed);
+    let start = state.grid.mesh.vertex_count() as f64;
+    let range = (start * (1.0 - options.node_range)) as usize
+        ..=(start * (1.0 + options.node_range)).ceil() as usize;
+    let trials = options.trials * state.irregular().len().max(1);
+    for round in 0..ROUNDS {
+        for k in 0..trials / ROUNDS {
+            if state.irregular().is_empty() || (k % 256 == 0 && job.stopped()) {
+                return;
+            }
+            let done = (round as f64 + k as f64 / (trials / ROUNDS) as f64) / ROUNDS as f64;
+            let temperature = HOT * exp(ln(COLD / HOT) * done);
+            if k % 4096 == 0 {
+                job.progress("regularize", done, &[]);
+            }
+            let Some((operation, a, b)) = draw(state, &mut rng) else { continue };
+            attempt(state, operation, a, b, temperature, &range, &mut rng, report);
+        }
+        let all: Vec<u32> = state.grid.mesh.vertices().collect();
+        state.relax(&all, 10);
+        state.refresh_all();
+        state.commit();
+    }
+    report.converged = true;
+}
+
+/// Pick an irregular vertex, an interior one three times in four, and an operation near it.
+fn draw(state: &State, rng: &mut fastrand::Rng) -> Option<(Operation, u32, u32)> {
+    let mesh = &state.grid.mesh;
+    let irregular = state.irregular();
+    let mut v = irregular[rng.usize(..irregular.len())];
+    if mesh.is_boundary(v) && rng.f64() < 0.6 {
+        v = irregular[rng.usize(..irregular.len())];
+    }
+    let ring = mesh.ring(v);
+    let i = rng.usize(..ring.len());
+    let incident = (v, ring[i]);
+    let link = (ring[i], ring[(i + 1) % ring.len()]);
+    Some(match rng.u8(..20) {
+        0..9 => (Operation::Flip, incident.0, incident.1),
+        9..14 if mesh.adjacent(link.0, link.1) => (Operation::Flip, link.0, link.1),
+        14..17 => (Operation::Collapse, incident.0, incident.1),
+        17..20 => (Operation::Split, incident.0, incident.1),
+        _ => return None,
+    })
+}
+
+/// Estimated change of R by an operation, boundary angles taken as they are. None when topology forbids it.
+fn estimate(state: &State, operation: Operation, a: u32, b: u32) -> Option<f64> {
+    let mesh = &state.grid.mesh;
+    let apexes = [mesh.left(a, b), mesh.right(a, b)];
+    let at_apexes =
+        |by: i32| apexes.iter().flatten().map(|&v| state.residual_change(v, by)).sum::<f64>();
+    match operation {
+        Operation::Flip => state.flip_change(a, b),
+        Operation::Split => {
+            // A new vertex: degree four inside, three on the boundary.
+            let own = if apexes.contains(&None) { 1.0 - state.lambda } else { 4.0 * state.lambda };
+            Some(own + at_apexes(1))
+        }
+        Operation::Collapse => {
+            let (da, db) = (state.deviation[a as usize], state.deviation[b as usize]);
+            let own = |v: u32, d: i32| state.gamma(v) * f64::from(d * d);
+            let stays = if mesh.is_boundary(b) { b } else { a };
+            // d_a + d_b - 4 inside; on a boundary edge the virtual degrees make it d_a* + d_b* - 6 + ... alike.
+            let both_on_boundary = mesh.is_boundary(a) && mesh.is_boundary(b);
+            let merged = da + db + if both_on_boundary { 1 } else { 2 };
+            Some(own(stays, merged) - own(a, da) - own(b, db) + at_apexes(-1))
+        }
+    }
+}
+
+/// Try one operation: keep it with the odds of the temperature.
+#[expect(clippy::too_many_arguments, reason = "the inner step of one loop")]
+fn attempt(
+    state: &mut State,
+    operation: Operation,
+    a: u32,
+    b: u32,
+    temperature: f64,
+    range: &std::ops::RangeInclusive<usize>,
+    rng: &mut fastrand::Rng,
+    report: &mut Report,
+) {
+    let Some(change) = estimate(state, operation, a, b) else { return };
+    let allowance = -temperature * ln(rng.f64().max(1e-300));
+    let count = state.grid.mesh.vertex_count();
+    let in_range = match operation {
+        Operation::Flip => true,
+        Operation::Collapse => range.contains(&(count - 1)),
+        Operation::Split => range.contains(&(count + 1)),
+    };
+    if WEIGHT * change > allowance + HOPE || !in_range {
+        report.refused += 1;
+        return;
+    }
+    let region = state.region(&[a, b], 2);
+    let before = state.length_energy(&region);
+    let residual_before = weighted_residual(state, &region);
+    let done = match operation {
+        Operation::Flip => state.flip(a, b).map(|_| a),
+        Operation::Collapse => state.collapse(a, b),
+        Operation::Split => state.split(a, b),
+    };
+    let Ok(center) = done else {
+        report.refused += 1;
+        return;
+    };
+    let mut seeds = region;
+    seeds.push(center);
+    let region = state.region(&seeds, 0);
+    state.relax(&region, 4);
+    state.refresh(&region);
+    let touched = state.touched();
+    state.refresh(&touched);
+    let energy = state.length_energy(&region) - before
+        + WEIGHT * (weighted_residual(state, &region) - residual_before);
+    if energy > allowance || state.has_bad_panel(&touched, LEAST_SHAPE) {
+        report.refused += 1;
+        state.roll_back();
+        return;
+    }
+    state.commit();
+    match operation {
+        Operation::Flip => report.flips += 1,
+        Operation::Collapse => report.collapses += 1,
+        Operation::Split => report.splits += 1,
+    }
+}
+
+fn weighted_residual(state: &State, region: &[u32]) -> f64 {
+    region
+        .iter()
+        .map(|&v| {
+            let d = state.deviation[v as usize];
+            state.gamma(v) * f64::from(d * d)
+        })
+        .sum()
+}

@@ -1,0 +1,298 @@
+//! A grid under edge operations: connectivity, positions and adjusted degrees change together, and a run of
+//! changes can be taken back.
+
+use crate::degree::{boundary_angle, virtual_degree};
+use crate::grid::{Grid, Place};
+use crate::mesh::{Refusal, Undo};
+use crate::surface::{ChainPoint, Surface};
+use glam::DVec3;
+use smallvec::SmallVec;
+
+/// A few vertices.
+pub type Few = SmallVec<[u32; 48]>;
+
+/// A grid being regularized.
+#[derive(Clone)]
+pub struct State<'a> {
+    pub surface: &'a Surface,
+    pub grid: Grid,
+    /// Wanted edge length, metres.
+    pub length: f64,
+    /// Weight of interior vertices, Eq. 13.
+    pub lambda: f64,
+    /// Adjusted degree minus six of each vertex (0 for removed ones).
+    pub deviation: Vec<i32>,
+    /// Irregular vertices in use, in no meaning order, and where each stands in that list.
+    irregular: Vec<u32>,
+    listed: Vec<u32>,
+    undo: Undo,
+    moved: Vec<(u32, Place, DVec3)>,
+    /// Marks of the last region gathered.
+    mark: Vec<u32>,
+    stamp: u32,
+}
+
+const UNLISTED: u32 = u32::MAX;
+
+impl<'a> State<'a> {
+    pub fn new(surface: &'a Surface, grid: Grid, length: f64, lambda: f64) -> State<'a> {
+        let n = grid.mesh.slots();
+        let mut state = State {
+            surface,
+            grid,
+            length,
+            lambda,
+            deviation: vec![0; n],
+            irregular: Vec::new(),
+            listed: vec![UNLISTED; n],
+            undo: Undo::default(),
+            moved: Vec::new(),
+            mark: vec![0; n],
+            stamp: 0,
+        };
+        state.refresh_all();
+        state
+    }
+
+    /// Work out every adjusted degree anew.
+    pub fn refresh_all(&mut self) {
+        let all: Vec<u32> = (0..self.grid.mesh.slots() as u32).collect();
+        self.refresh(&all);
+    }
+
+    /// Work out the adjusted degrees of these vertices anew.
+    pub fn refresh(&mut self, vertices: &[u32]) {
+        for &v in vertices {
+            let d = self.deviation_of(v);
+            self.deviation[v as usize] = d;
+            let at = self.listed[v as usize];
+            if d != 0 && at == UNLISTED {
+                self.listed[v as usize] = self.irregular.len() as u32;
+                self.irregular.push(v);
+            } else if d == 0 && at != UNLISTED {
+                self.irregular.swap_remove(at as usize);
+                self.listed[v as usize] = UNLISTED;
+                if let Some(&other) = self.irregular.get(at as usize) {
+                    self.listed[other as usize] = at;
+                }
+            }
+        }
+    }
+
+    fn deviation_of(&self, v: u32) -> i32 {
+        let mesh = &self.grid.mesh;
+        if !mesh.is_alive(v) {
+            return 0;
+        }
+        let degree = mesh.degree(v) as i32;
+        match mesh.is_boundary(v) {
+            true => degree + virtual_degree(boundary_angle(mesh, &self.grid.xyz, v)) - 6,
+            false => degree - 6,
+        }
+    }
+
+    /// Irregular vertices, in an order that depends on history only.
+    pub fn irregular(&self) -> &[u32] {
+        &self.irregular
+    }
+
+    /// gamma_i of Eq. 13.
+    pub fn gamma(&self, v: u32) -> f64 {
+        if self.grid.mesh.is_boundary(v) { 1.0 - self.lambda } else { self.lambda }
+    }
+
+    /// Change of the residual R (Eq. 14, 17) when the deviation of `v` changes by `by`.
+    pub fn residual_change(&self, v: u32, by: i32) -> f64 {
+        let d = self.deviation[v as usize];
+        self.gamma(v) * f64::from((d + by) * (d + by) - d * d)
+    }
+
+    /// Change of R by flipping the edge (Eq. 15 to 17); None on the boundary.
+    pub fn flip_change(&self, a: u32, b: u32) -> Option<f64> {
+        let (c, d) = (self.grid.mesh.left(a, b)?, self.grid.mesh.right(a, b)?);
+        let lose = self.residual_change(a, -1) + self.residual_change(b, -1);
+        Some(lose + self.residual_change(c, 1) + self.residual_change(d, 1))
+    }
+
+    /// Flip an edge.
+    pub fn flip(&mut self, a: u32, b: u32) -> Result<(u32, u32), Refusal> {
+        self.grid.mesh.try_flip(a, b, &mut self.undo)
+    }
+
+    /// Split an edge at its middle (on the surface, or on the loop for a boundary edge).
+    pub fn split(&mut self, a: u32, b: u32) -> Result<u32, Refusal> {
+        let on_boundary = self.grid.mesh.is_boundary_edge(a, b);
+        let place =
+            if on_boundary { self.middle_on_loop(a, b) } else { self.middle_on_surface(a, b) };
+        let m = self.grid.mesh.try_split(a, b, &mut self.undo)?;
+        let n = self.grid.mesh.slots();
+        if self.grid.xyz.len() < n {
+            self.grid.xyz.resize(n, DVec3::ZERO);
+            self.grid.places.resize(n, place);
+            self.deviation.resize(n, 0);
+            self.listed.resize(n, UNLISTED);
+            self.mark.resize(n, 0);
+        }
+        self.set_place(m, place);
+        Ok(m)
+    }
+
+    /// Collapse an edge; the end that is the more fixed one (corner, then boundary) stays, or else `a`, which
+    /// goes to the middle. Gives the end that stays.
+    pub fn collapse(&mut self, a: u32, b: u32) -> Result<u32, Refusal> {
+        let mesh = &self.grid.mesh;
+        let rank = |v: u32| (mesh.is_pinned(v), mesh.is_boundary(v));
+        let (keep, gone) = if rank(b) > rank(a) { (b, a) } else { (a, b) };
+        let place = match (self.grid.places[keep as usize], mesh.is_boundary_edge(a, b)) {
+            (Place::Interior(_), _) => self.middle_on_surface(keep, gone),
+            (Place::Boundary(_), true) => self.middle_on_loop(keep, gone),
+            (fixed, _) => fixed,
+        };
+        self.grid.mesh.try_collapse(keep, gone, &mut self.undo)?;
+        self.set_place(keep, place);
+        Ok(keep)
+    }
+
+    fn set_place(&mut self, v: u32, place: Place) {
+        let i = v as usize;
+        self.moved.push((v, self.grid.places[i], self.grid.xyz[i]));
+        self.grid.places[i] = place;
+        self.grid.xyz[i] = place.xyz(self.surface);
+    }
+
+    fn middle_on_surface(&self, a: u32, b: u32) -> Place {
+        let start = self.grid.places[a as usize].surface_point(self.surface);
+        let half = (self.grid.xyz[b as usize] - self.grid.xyz[a as usize]) * 0.5;
+        Place::Interior(self.surface.carrier.trace(&start, half))
+    }
+
+    fn middle_on_loop(&self, a: u32, b: u32) -> Place {
+        let (a, b) = if self.grid.mesh.next_on_boundary(a) == Some(b) { (a, b) } else { (b, a) };
+        let on_loop = |v: u32| match self.grid.places[v as usize] {
+            Place::Boundary(c) | Place::Corner(c) => c,
+            Place::Interior(_) => unreachable!("boundary vertices have places on loops"),
+        };
+        let (from, to) = (on_loop(a), on_loop(b));
+        let chain = &self.surface.loops[from.chain as usize];
+        let s = chain.wrap(from.s + 0.5 * chain.wrap(to.s - from.s));
+        Place::Boundary(ChainPoint { chain: from.chain, s })
+    }
+
+    /// Vertices within `rings` rings of these.
+    pub fn region(&mut self, seeds: &[u32], rings: usize) -> Few {
+        self.stamp += 1;
+        let mut region = Few::new();
+        for &v in seeds {
+            if self.grid.mesh.is_alive(v) && self.mark[v as usize] != self.stamp {
+                self.mark[v as usize] = self.stamp;
+                region.push(v);
+            }
+        }
+        let mut from = 0;
+        for _ in 0..rings {
+            let to = region.len();
+            for i in from..to {
+                for &w in self.grid.mesh.ring(region[i]) {
+                    if self.mark[w as usize] != self.stamp {
+                        self.mark[w as usize] = self.stamp;
+                        region.push(w);
+                    }
+                }
+            }
+            from = to;
+        }
+        region
+    }
+
+    /// Sum over the members that touch the region *last gathered* of (l / l0 - 1)^2.
+    pub fn length_energy(&self, region: &[u32]) -> f64 {
+        let mut sum = 0.0;
+        for &v in region {
+            let at = self.grid.xyz[v as usize];
+            for &w in self.grid.mesh.ring(v) {
+                if w > v || self.mark[w as usize] != self.stamp {
+                    let strain = at.distance(self.grid.xyz[w as usize]) / self.length - 1.0;
+                    sum += strain * strain;
+                }
+            }
+        }
+        sum
+    }
+
+    /// Sweep over the vertices, moving each to where its members are nearest to the wanted length.
+    pub fn relax(&mut self, region: &[u32], sweeps: usize) {
+        for &v in region {
+            self.moved.push((v, self.grid.places[v as usize], self.grid.xyz[v as usize]));
+        }
+        for _ in 0..sweeps {
+            for &v in region {
+                let at = self.grid.xyz[v as usize];
+                let ring = self.grid.mesh.ring(v);
+                let pull: DVec3 = ring
+                    .iter()
+                    .map(|&w| {
+                        let d = self.grid.xyz[w as usize] - at;
+                        d * (1.0 - self.length / d.length().max(1e-9 * self.length))
+                    })
+                    .sum();
+                // The members of a regular node resist a move with half their number in either direction.
+                let mut step = pull * (2.0 / ring.len() as f64);
+                if step.length_squared() > 0.09 * self.length * self.length {
+                    step *= 0.3 * self.length / step.length();
+                }
+                self.grid.slide(self.surface, v as usize, step);
+            }
+        }
+    }
+
+    /// Whether a panel at one of these vertices is a sliver (shape below `least`) or turned over.
+    pub fn has_bad_panel(&self, vertices: &[u32], least: f64) -> bool {
+        let xyz = &self.grid.xyz;
+        let carrier = &self.surface.carrier;
+        vertices.iter().any(|&v| {
+            let normal = carrier.normal(&self.grid.places[v as usize].surface_point(self.surface));
+            self.grid.mesh.fan(v).any(|(a, b)| {
+                let (p, q, r) = (xyz[v as usize], xyz[a as usize], xyz[b as usize]);
+                let area = (q - p).cross(r - p);
+                let sides = p.distance_squared(q) + q.distance_squared(r) + r.distance_squared(p);
+                let shape = 2.0 * 3f64.sqrt() * area.length() / sides;
+                shape < least || area.dot(normal) <= 0.0
+            })
+        })
+    }
+
+    /// The vertices whose rings changed since the last commit.
+    pub fn touched(&self) -> Few {
+        self.undo.touched().collect()
+    }
+
+    /// Keep the changes since the last commit; adjusted degrees must have been refreshed.
+    pub fn commit(&mut self) {
+        self.undo.clear();
+        self.moved.clear();
+    }
+
+    /// Take back the changes since the last commit, adjusted degrees included where they were refreshed.
+    pub fn roll_back(&mut self) {
+        let mut stale: Few = self.undo.touched().collect();
+        self.grid.mesh.take_back(&mut self.undo);
+        while let Some((v, place, xyz)) = self.moved.pop() {
+            self.grid.places[v as usize] = place;
+            self.grid.xyz[v as usize] = xyz;
+            if self.grid.mesh.is_boundary(v) {
+                stale.push(v);
+            }
+        }
+        stale.sort_unstable();
+        stale.dedup();
+        self.refresh(&stale);
+    }
+
+    /// The grid, numbered without gaps: boundary and interior nodes keep their order.
+    pub fn into_grid(mut self) -> Grid {
+        let old = self.grid.mesh.compact();
+        self.grid.places = old.iter().map(|&v| self.grid.places[v as usize]).collect();
+        self.grid.xyz = old.iter().map(|&v| self.grid.xyz[v as usize]).collect();
+        self.grid
+    }
+}

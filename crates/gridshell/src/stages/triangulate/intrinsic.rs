@@ -1,0 +1,196 @@
+//! An intrinsic triangulation: a mesh with edge lengths measured along the surface.
+
+use crate::mesh::{Mesh, Undo};
+use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
+
+/// A mesh and the lengths of its edges.
+pub struct Intrinsic {
+    pub mesh: Mesh,
+    /// Per vertex: (neighbour with a higher id, length).
+    lengths: Vec<SmallVec<[(u32, f64); 4]>>,
+    /// Edges that may have ceased to be Delaunay.
+    suspects: Vec<(u32, u32)>,
+    undo: Undo,
+}
+
+impl Intrinsic {
+    /// The triangulation of a carrier, with straight edges.
+    pub fn new(mesh: Mesh, xyz: &[DVec3]) -> Intrinsic {
+        let lengths = vec![SmallVec::new(); mesh.slots()];
+        let edges: Vec<(u32, u32)> = mesh.edges().collect();
+        let mut this = Intrinsic { mesh, lengths, suspects: Vec::new(), undo: Undo::default() };
+        for (a, b) in edges {
+            this.set_length(a, b, xyz[a as usize].distance(xyz[b as usize]));
+        }
+        this
+    }
+
+    fn length(&self, a: u32, b: u32) -> f64 {
+        let (a, b) = (a.min(b), a.max(b));
+        self.lengths[a as usize].iter().find(|e| e.0 == b).expect("every edge has a length").1
+    }
+
+    fn set_length(&mut self, a: u32, b: u32, length: f64) {
+        let (a, b) = (a.min(b), a.max(b));
+        if self.lengths.len() < self.mesh.slots() {
+            self.lengths.resize(self.mesh.slots(), SmallVec::new());
+        }
+        let list = &mut self.lengths[a as usize];
+        match list.iter_mut().find(|e| e.0 == b) {
+            Some(e) => e.1 = length,
+            None => list.push((b, length)),
+        }
+    }
+
+    fn forget_length(&mut self, a: u32, b: u32) {
+        let (a, b) = (a.min(b), a.max(b));
+        self.lengths[a as usize].retain(|e| e.0 != b);
+    }
+
+    /// Put a vertex into a triangle, at these distances from its corners.
+    pub fn insert(&mut self, corners: [u32; 3], distances: [f64; 3]) -> u32 {
+        let m = self.mesh.insert_in_triangle(corners);
+        for k in 0..3 {
+            self.set_length(corners[k], m, distances[k]);
+        }
+        m
+    }
+
+    /// Split the boundary edge from `a` to `b` at `share` of its length.
+    pub fn split_boundary(&mut self, a: u32, b: u32, share: f64) -> u32 {
+        let whole = self.length(a, b);
+        let c = self.mesh.left(a, b).expect("the surface lies to the left of its loops");
+        let apex = self.apex(a, b, c);
+        let m = self.mesh.try_split(a, b, &mut self.undo).expect("the boundary edge exists");
+        self.undo.clear();
+        self.forget_length(a, b);
+        self.set_length(a, m, whole * share);
+        self.set_length(m, b, whole * (1.0 - share));
+        self.set_length(m, c, apex.distance(DVec2::new(whole * share, 0.0)));
+        m
+    }
+
+    /// Triangle (a, b, c) laid into the plane with a at the origin and b on the x axis: where c is, above.
+    fn apex(&self, a: u32, b: u32, c: u32) -> DVec2 {
+        let (ab, ac, bc) = (self.length(a, b), self.length(a, c), self.length(b, c));
+        let x = (ab * ab + ac * ac - bc * bc) / (2.0 * ab);
+        DVec2::new(x, (ac * ac - x * x).max(0.0).sqrt())
+    }
+
+    /// The two triangles at the edge laid into the plane: length of the edge, left apex (above), right apex
+    /// (below). None on the boundary.
+    fn quad(&self, a: u32, b: u32) -> Option<(f64, DVec2, DVec2)> {
+        let (c, d) = (self.mesh.left(a, b)?, self.mesh.right(a, b)?);
+        let below = self.apex(a, b, d);
+        Some((self.length(a, b), self.apex(a, b, c), DVec2::new(below.x, -below.y)))
+    }
+
+    /// Whether the edge is Delaunay: its two opposite angles sum to at most pi.
+    fn is_delaunay(&self, a: u32, b: u32) -> bool {
+        let Some((l, c, d)) = self.quad(a, b) else { return true };
+        let b = DVec2::new(l, 0.0);
+        // The sine of the sum of the two angles is negative when they exceed pi.
+        let (u, v) = ((-c, b - c), (b - d, -d));
+        let sine = u.0.perp_dot(u.1) * v.0.dot(v.1) + u.0.dot(u.1) * v.0.perp_dot(v.1);
+        let scale = u.0.length_squared()
+            * u.1.length_squared()
+            * v.0.length_squared()
+            * v.1.length_squared();
+        sine >= -1e-9 * scale.sqrt()
+    }
+
+    /// Flip the edge if topology allows; the new edge gets the length across.
+    fn flip(&mut self, a: u32, b: u32) -> bool {
+        let Some((_, c, d)) = self.quad(a, b) else { return false };
+        let Ok((p, q)) = self.mesh.try_flip(a, b, &mut self.undo) else { return false };
+        self.undo.clear();
+        self.forget_length(a, b);
+        self.set_length(p, q, c.distance(d));
+        self.suspects.extend([(a, p), (p, b), (b, q), (q, a)]);
+        true
+    }
+
+    /// Flip until every edge is Delaunay (Lawson).
+    pub fn make_delaunay(&mut self) {
+        self.suspects = self.mesh.edges().collect();
+        self.settle();
+    }
+
+    fn settle(&mut self) {
+        // Lawson's flips end by themselves; rounding and refused flips are what the limit guards against.
+        let mut budget = 100 * self.suspects.len() + 10_000;
+        while let Some((a, b)) = self.suspects.pop() {
+            if budget == 0 {
+                self.suspects.clear();
+                return;
+            }
+            if self.mesh.adjacent(a, b) && !self.is_delaunay(a, b) {
+                budget -= 1;
+                self.flip(a, b);
+            }
+        }
+    }
+
+    /// Remove these vertices, keeping the rest Delaunay; gives those that cannot go without changing the
+    /// surface's topology.
+    pub fn remove_all(&mut self, mut vertices: Vec<u32>) -> Vec<u32> {
+        loop {
+            let before = vertices.len();
+            vertices.retain(|&v| {
+                let gone = self.remove(v);
+                self.settle();
+                !gone
+            });
+            if vertices.is_empty() || vertices.len() == before {
+                return vertices;
+            }
+        }
+    }
+
+    /// Flip edges away from `v` until it hangs by three (inside) or two or three (boundary), then take it.
+    fn remove(&mut self, v: u32) -> bool {
+        while self.mesh.degree(v) > 3 {
+            let ring: SmallVec<[u32; 8]> = self.mesh.ring(v).into();
+            let best = ring
+                .iter()
+                .filter_map(|&w| self.flipped_length(v, w).map(|l| (l, w)))
+                .min_by(|x, y| x.0.total_cmp(&y.0));
+            match best {
+                Some((_, w)) if self.flip(v, w) => {}
+                _ => return false,
+            }
+        }
+        let ring: SmallVec<[u32; 8]> = self.mesh.ring(v).into();
+        let (first, last) = (ring[0], ring[ring.len() - 1]);
+        let boundary = self.mesh.is_boundary(v);
+        let along = self.length(v, first) + self.length(v, last);
+        if self.mesh.try_collapse(last, v, &mut self.undo).is_err() {
+            return false;
+        }
+        self.undo.clear();
+        for &w in &ring {
+            self.forget_length(v, w);
+        }
+        if boundary && ring.len() == 3 {
+            // The boundary between two nodes is one member, however it bends.
+            self.set_length(first, last, along);
+        }
+        for i in 0..ring.len() {
+            self.suspects.push((ring[i], ring[(i + 1) % ring.len()]));
+        }
+        true
+    }
+
+    /// Length of the edge that flipping (v, w) would make; None unless the two triangles form a convex
+    /// quadrilateral and the new edge does not exist yet.
+    fn flipped_length(&self, v: u32, w: u32) -> Option<f64> {
+        let (l, c, d) = self.quad(v, w)?;
+        if self.mesh.adjacent(self.mesh.left(v, w)?, self.mesh.right(v, w)?) {
+            return None;
+        }
+        // Where the line from c to d crosses the axis of the edge.
+        let x = c.x + (d.x - c.x) * c.y / (c.y - d.y).max(f64::MIN_POSITIVE);
+        (x > 0.0 && x < l * (1.0 - 1e-12)).then(|| c.distance(d))
+    }
+}

@@ -1,0 +1,224 @@
+//! A flattening of the carrier with little distortion, on which a lattice can be laid.
+//!
+//! The start is the projection along the mean normal where that folds nothing over, otherwise Tutte's
+//! embedding (the longest loop on a circle, a hub in every other loop), which never folds. Then local/global
+//! steps make every triangle as rigid as possible with a free boundary (Liu et al., *A local/global approach
+//! to mesh parameterization*, 2008). Only for one connected piece of genus 0 with a boundary; a chart may
+//! still overlap itself (a spiral does), which a lattice does not mind.
+
+use super::{Carrier, Chain};
+use crate::math::trig::{cos, sin};
+use glam::{DMat2, DVec2, DVec3};
+
+/// Local/global steps from a projection, and from Tutte's embedding, which is farther off.
+const STEPS: [usize; 2] = [16, 60];
+/// Conjugate-gradient steps in each, from where the last one ended.
+const SOLVER_STEPS: usize = 80;
+/// Smallest cotangent weight; obtuse pairs would make the system indefinite.
+const LEAST_WEIGHT: f64 = 0.02;
+
+/// Plane coordinates of every carrier vertex, metres.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// Indexed as `Carrier::points`.
+    pub uv: Vec<DVec2>,
+}
+
+impl Chart {
+    /// Flatten a carrier; None where that makes no sense: closed, not connected, or with handles.
+    pub fn flatten(carrier: &Carrier, loops: &[Chain], euler_characteristic: i64) -> Option<Chart> {
+        // chi = 2 - 2 genus - loops for one piece.
+        if loops.is_empty()
+            || euler_characteristic != 2 - loops.len() as i64
+            || !is_connected(carrier)
+        {
+            return None;
+        }
+        let (uv, steps) = match projection(carrier) {
+            Some(uv) => (uv, STEPS[0]),
+            None => (tutte(carrier, loops), STEPS[1]),
+        };
+        Some(Chart { uv: as_rigid_as_possible(carrier, uv, steps) })
+    }
+
+    /// Corners of carrier triangle `t` in the plane.
+    pub fn corners(&self, carrier: &Carrier, t: usize) -> [DVec2; 3] {
+        carrier.triangles[t].map(|v| self.uv[v as usize])
+    }
+}
+
+fn is_connected(carrier: &Carrier) -> bool {
+    let mut seen = vec![false; carrier.triangles.len()];
+    let mut stack = vec![0u32];
+    let mut count = 0;
+    while let Some(t) = stack.pop() {
+        if std::mem::replace(&mut seen[t as usize], true) {
+            continue;
+        }
+        count += 1;
+        stack.extend(carrier.neighbors[t as usize].iter().filter(|&&n| n != super::carrier::NONE));
+    }
+    count == seen.len()
+}
+
+/// The carrier seen along its mean normal; None where a triangle is seen from behind.
+fn projection(carrier: &Carrier) -> Option<Vec<DVec2>> {
+    let area = |p: [DVec3; 3]| (p[1] - p[0]).cross(p[2] - p[0]);
+    let mean: DVec3 = (0..carrier.triangles.len()).map(|t| area(carrier.corners(t as u32))).sum();
+    let normal = mean.normalize_or_zero();
+    let seen = |t: usize| area(carrier.corners(t as u32)).dot(normal) > 0.0;
+    if !(0..carrier.triangles.len()).all(seen) {
+        return None;
+    }
+    let (x, y) = normal.any_orthonormal_pair();
+    // Right-handed with the normal towards the viewer.
+    let (x, y) = if x.cross(y).dot(normal) > 0.0 { (x, y) } else { (y, x) };
+    Some(carrier.points.iter().map(|p| DVec2::new(p.dot(x), p.dot(y))).collect())
+}
+
+/// Tutte's embedding: every inner vertex in the middle of its neighbours.
+fn tutte(carrier: &Carrier, loops: &[Chain]) -> Vec<DVec2> {
+    let n = carrier.points.len();
+    let hubs = loops.len() - 1;
+    let outer = (0..loops.len())
+        .max_by(|&a, &b| loops[a].length().total_cmp(&loops[b].length()))
+        .unwrap_or(0);
+    let mut entries: Vec<(u32, u32, f64)> = Vec::new();
+    for corners in &carrier.triangles {
+        for k in 0..3 {
+            let (i, j) = (corners[k], corners[(k + 1) % 3]);
+            entries.extend([(i, j, 0.5), (j, i, 0.5)]);
+        }
+    }
+    for (h, chain) in
+        loops.iter().enumerate().filter(|&(c, _)| c != outer).map(|(_, c)| c).enumerate()
+    {
+        let hub = (n + h) as u32;
+        entries.extend(chain.vertices.iter().flat_map(|&v| [(v, hub, 1.0), (hub, v, 1.0)]));
+    }
+    let mut laplacian = Laplacian::new(n + hubs, entries);
+    let mut uv = vec![DVec2::ZERO; n + hubs];
+    let chain = &loops[outer];
+    let radius = chain.length() / std::f64::consts::TAU;
+    for (&v, &s) in chain.vertices.iter().zip(&chain.arc) {
+        let angle = s / radius;
+        uv[v as usize] = DVec2::new(cos(angle), sin(angle)) * radius;
+        laplacian.fixed[v as usize] = true;
+    }
+    let right = vec![DVec2::ZERO; n + hubs];
+    laplacian.solve(&right, &mut uv, 2000);
+    uv.truncate(n);
+    uv
+}
+
+/// A triangle laid flat: edge vectors k -> k + 1 in its own plane, and their cotangent weights.
+type Flat = [(DVec2, f64); 3];
+
+fn as_rigid_as_possible(carrier: &Carrier, mut uv: Vec<DVec2>, steps: usize) -> Vec<DVec2> {
+    let flat: Vec<Flat> =
+        (0..carrier.triangles.len()).map(|t| lay_flat(carrier.corners(t as u32))).collect();
+    let entries = carrier.triangles.iter().zip(&flat).flat_map(|(corners, edges)| {
+        (0..3).flat_map(move |k| {
+            let (i, j, w) = (corners[k], corners[(k + 1) % 3], edges[k].1);
+            [(i, j, w), (j, i, w)]
+        })
+    });
+    let laplacian = Laplacian::new(uv.len(), entries.collect());
+    for _ in 0..steps {
+        let mut right = vec![DVec2::ZERO; uv.len()];
+        for (corners, edges) in carrier.triangles.iter().zip(&flat) {
+            let mut sum = DMat2::ZERO;
+            for k in 0..3 {
+                let d = uv[corners[(k + 1) % 3] as usize] - uv[corners[k] as usize];
+                let (e, w) = edges[k];
+                sum += DMat2::from_cols(d * e.x, d * e.y) * w;
+            }
+            // The rotation nearest to the sum of d e^T.
+            let turn = DVec2::new(sum.x_axis.x + sum.y_axis.y, sum.x_axis.y - sum.y_axis.x)
+                .normalize_or(DVec2::X);
+            for k in 0..3 {
+                let (e, w) = edges[k];
+                let f = turn.rotate(e) * w;
+                right[corners[(k + 1) % 3] as usize] += f;
+                right[corners[k] as usize] -= f;
+            }
+        }
+        laplacian.solve(&right, &mut uv, SOLVER_STEPS);
+    }
+    uv
+}
+
+fn lay_flat(p: [DVec3; 3]) -> Flat {
+    let x = (p[1] - p[0]).normalize_or_zero();
+    let y = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero().cross(x);
+    [0, 1, 2].map(|k| {
+        let (a, b, c) = (p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
+        let cot = (a - c).dot(b - c) / (a - c).cross(b - c).length().max(f64::MIN_POSITIVE);
+        let w = (0.5 * cot).clamp(LEAST_WEIGHT, 1.0 / LEAST_WEIGHT);
+        (DVec2::new((b - a).dot(x), (b - a).dot(y)), w)
+    })
+}
+
+/// A weighted graph Laplacian; fixed entries keep their values.
+struct Laplacian {
+    rows: Vec<Vec<(u32, f64)>>,
+    diagonal: Vec<f64>,
+    fixed: Vec<bool>,
+}
+
+impl Laplacian {
+    fn new(n: usize, mut entries: Vec<(u32, u32, f64)>) -> Laplacian {
+        entries.sort_by_key(|e| (e.0, e.1));
+        let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); n];
+        let mut diagonal = vec![0.0; n];
+        for (i, j, w) in entries {
+            diagonal[i as usize] += w;
+            match rows[i as usize].last_mut() {
+                Some(last) if last.0 == j => last.1 += w,
+                _ => rows[i as usize].push((j, w)),
+            }
+        }
+        Laplacian { rows, diagonal, fixed: vec![false; n] }
+    }
+
+    fn apply(&self, x: &[DVec2]) -> Vec<DVec2> {
+        let row = |i: usize| {
+            let off: DVec2 = self.rows[i].iter().map(|&(j, w)| x[j as usize] * w).sum();
+            if self.fixed[i] { DVec2::ZERO } else { x[i] * self.diagonal[i] - off }
+        };
+        (0..x.len()).map(row).collect()
+    }
+
+    /// At most `steps` conjugate-gradient steps on L x = right, both coordinates at once, from `x`.
+    fn solve(&self, right: &[DVec2], x: &mut [DVec2], steps: usize) {
+        let dot = |a: &[DVec2], b: &[DVec2]| a.iter().zip(b).map(|(p, q)| p.dot(*q)).sum::<f64>();
+        let ax = self.apply(x);
+        let mut r: Vec<DVec2> = right.iter().zip(&ax).map(|(b, a)| *b - *a).collect();
+        let scaled = |r: &[DVec2]| -> Vec<DVec2> {
+            r.iter().zip(&self.diagonal).map(|(v, d)| *v / *d).collect()
+        };
+        let mut z = scaled(&r);
+        let mut p = z.clone();
+        let mut rz = dot(&r, &z);
+        // Against the right side too: a good start is at rounding level already.
+        let enough = 1e-12 * dot(right, &scaled(right)).max(rz);
+        for _ in 0..steps {
+            if rz <= enough {
+                break;
+            }
+            let ap = self.apply(&p);
+            let alpha = rz / dot(&p, &ap);
+            for i in 0..x.len() {
+                x[i] += p[i] * alpha;
+                r[i] -= ap[i] * alpha;
+            }
+            z = scaled(&r);
+            let next = dot(&r, &z);
+            let beta = next / rz;
+            rz = next;
+            for i in 0..p.len() {
+                p[i] = z[i] + p[i] * beta;
+            }
+        }
+    }
+}
