@@ -11,7 +11,10 @@ use gridshell::surface::{Model, Sampling};
 use serde::Serialize;
 
 /// Carrier edges over the size of the model: fine enough to count loops and corners.
-const FINENESS: f64 = 1.0 / 200.0;
+const FINENESS: f64 = 1.0 / 80.0;
+
+/// Distance between carrier and surface over the size of the model.
+const CHORD_ERROR: f64 = 1e-4;
 
 /// The document of `--json`.
 #[derive(Serialize)]
@@ -43,5 +46,5 @@ pub fn run(args: &Inspect) -> Result<Outcome, Failure> {
 fn sampling(model: &Model) -> Sampling {
     let size = model.size();
     let corner_angle = Recipe::default().corner_angle_deg.to_radians();
-    Sampling { max_edge: size * FINENESS, chord_error: size * FINENESS * 0.01, corner_angle }
+    Sampling { max_edge: size * FINENESS, chord_error: size * CHORD_ERROR, corner_angle }
 }

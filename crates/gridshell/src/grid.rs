@@ -148,9 +148,19 @@ impl Grid {
 }
 
 impl Place {
-    /// Whether it lies on a boundary loop.
-    pub fn is_boundary(&self) -> bool {
-        !matches!(self, Place::Interior(_))
+    /// Distance in metres of `xyz`, which should stand at this place, from the exact surface.
+    pub fn off_surface(&self, surface: &Surface, xyz: DVec3) -> f64 {
+        surface.deviation(&self.surface_point(surface), xyz)
+    }
+
+    /// Distance in metres of `xyz` from the exact boundary; 0 for an interior place.
+    pub fn off_boundary(&self, surface: &Surface, xyz: DVec3) -> f64 {
+        match self {
+            Place::Interior(_) => 0.0,
+            Place::Boundary(c) | Place::Corner(c) => {
+                surface.loops[c.chain as usize].deviation(surface, c.s, xyz)
+            }
+        }
     }
 
     /// The carrier point of this place.

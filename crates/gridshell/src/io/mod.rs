@@ -48,7 +48,6 @@ pub fn open(name_or_path: &str) -> Result<Model> {
 pub fn load(path: &Path) -> Result<Model> {
     match extension(path).as_str() {
         "obj" | "ply" | "stl" | "off" => read_mesh(path).map(Model::Mesh),
-        "step" | "stp" => step::read(path).map(Model::Brep),
         _ => Err(unknown(path, SURFACE_FORMATS)),
     }
 }

@@ -14,9 +14,10 @@ mod quality;
 pub use quality::{Border, Degrees, EdgeLength, Irregular, IrregularNode, Quality, Shape};
 
 use crate::degree::{REGULAR, adjusted_degree, boundary_angle, virtual_degree, weight};
-use crate::grid::Grid;
+use crate::grid::{Grid, Place};
 use crate::recipe;
 use crate::surface::Surface;
+use glam::DVec3;
 use std::collections::BTreeMap;
 
 /// Below this, the denominator of Q (Eq. 31) is rounding and the grid a perfect lattice.
@@ -39,9 +40,9 @@ pub fn measure(
     let mu = (nodes.residual / nodes.weighted).sqrt();
     let rho = lambda * nodes.interior_regular as f64 / nodes.weighted;
     let disorder = mu + rho * delta / 60.0;
-    let deviation = |boundary: bool| {
-        let on = grid.places.iter().zip(&grid.xyz).filter(|(p, _)| !boundary || p.is_boundary());
-        on.map(|(p, x)| p.exact(surface).distance(*x)).fold(0.0, f64::max) / edge_length
+    let off = |distance: &dyn Fn(&Place, DVec3) -> f64| {
+        let places = grid.places.iter().zip(&grid.xyz);
+        places.map(|(p, x)| distance(p, *x)).fold(0.0, f64::max) / edge_length
     };
     Quality {
         nodes: nodes.interior + nodes.boundary,
@@ -63,8 +64,8 @@ pub fn measure(
         rho,
         fluency: (disorder > PERFECT).then(|| 1.0 / disorder),
         area_ratio: panels.area / surface.area,
-        surface_deviation: deviation(false),
-        boundary_deviation: deviation(true),
+        surface_deviation: off(&|place, xyz| place.off_surface(surface, xyz)),
+        boundary_deviation: off(&|place, xyz| place.off_boundary(surface, xyz)),
         min_angle_deg: panels.min_angle.to_degrees(),
         bridging_members: bridging::count(grid, surface, edge_length),
         folded_panels: panels.folded,
