@@ -17,58 +17,60 @@ const HALF: [f64; 2] = [42.0, 22.0];
 
 /// The outline from the notch's eastern corner round to its western one.
 const OUTLINE: &[[f64; 2]] = &[
-    [-1.5, -19.2],
-    [6.0, -19.6],
-    [16.0, -19.9],
-    [29.0, -18.5],
-    [38.6, -11.5],
-    [40.4, -1.0],
-    [38.4, 10.0],
-    [28.5, 17.8],
-    [14.0, 20.0],
-    [0.0, 19.4],
-    [-14.0, 18.6],
-    [-28.0, 17.6],
-    [-37.6, 11.0],
-    [-40.6, 0.5],
-    [-38.2, -10.5],
-    [-29.5, -17.2],
-    [-21.0, -18.5],
-    [-15.0, -18.8],
+    [26.5, -17.2],
+    [29.5, -16.9],
+    [34.5, -13.5],
+    [38.6, -7.0],
+    [39.4, 1.5],
+    [36.8, 11.0],
+    [27.5, 17.6],
+    [14.0, 19.6],
+    [0.0, 20.0],
+    [-14.0, 18.9],
+    [-27.5, 16.6],
+    [-36.8, 9.5],
+    [-39.6, 0.0],
+    [-36.2, -9.8],
+    [-27.0, -16.4],
+    [-13.0, -19.2],
+    [0.0, -19.9],
+    [9.5, -19.5],
+    [14.0, -19.0],
 ];
 
 /// The notch, from its western corner to its eastern one.
 const NOTCH: &[[f64; 2]] = &[
-    [-15.0, -18.8],
-    [-13.6, -15.0],
-    [-12.8, -9.0],
-    [-8.0, -6.6],
-    [-4.0, -9.4],
-    [-3.2, -15.2],
-    [-1.5, -19.2],
+    [14.0, -19.0],
+    [16.2, -14.5],
+    [17.4, -8.8],
+    [22.6, -6.2],
+    [25.2, -9.6],
+    [25.4, -13.8],
+    [26.5, -17.2],
 ];
 
-/// The void under the western crest.
+/// The small void in the west.
 const WEST: &[[f64; 2]] = &[
-    [-15.5, 3.0],
-    [-17.0, 7.6],
-    [-22.0, 9.0],
-    [-27.0, 6.4],
-    [-28.4, 1.6],
-    [-24.6, -2.2],
-    [-19.0, -1.8],
+    [-21.6, 5.0],
+    [-24.0, 9.2],
+    [-28.6, 9.6],
+    [-32.0, 6.0],
+    [-31.2, 1.4],
+    [-27.0, -0.6],
+    [-22.8, 1.0],
 ];
 
-/// The larger void between the two eastern crests.
-const EAST: &[[f64; 2]] = &[
-    [26.4, 0.5],
-    [24.0, 5.6],
-    [17.5, 8.0],
-    [10.5, 5.6],
-    [6.8, 0.2],
-    [9.6, -4.6],
-    [16.0, -6.4],
-    [23.0, -4.6],
+/// The long void in the middle.
+const MIDDLE: &[[f64; 2]] = &[
+    [9.0, 3.6],
+    [4.0, 6.4],
+    [-4.0, 4.4],
+    [-11.6, 0.6],
+    [-15.4, -4.6],
+    [-12.2, -8.0],
+    [-4.4, -6.8],
+    [4.0, -3.4],
+    [8.8, 0.0],
 ];
 
 pub(super) fn brep() -> Brep {
@@ -80,7 +82,7 @@ pub(super) fn brep() -> Brep {
     let outline = sketch.edge(on_roof(clamped(OUTLINE)), [0.0, 1.0], [east_corner, west_corner]);
     let notch = sketch.edge(on_roof(clamped(NOTCH)), [0.0, 1.0], [west_corner, east_corner]);
     let mut loops = vec![vec![along(outline), along(notch)]];
-    for hole in [WEST, EAST] {
+    for hole in [WEST, MIDDLE] {
         let (curve, range) = closed(hole);
         loops.push(vec![against(sketch.ring(on_roof(curve), range))]);
     }
@@ -96,15 +98,17 @@ fn patch() -> Shape {
     Shape::Nurbs(known::surface([3, 3], knots, COUNT, points, Vec::new()))
 }
 
-/// Height of the control net: crests over the two halls, a low waist between them, lips at the ends.
+/// Height of the control net: a high crest between the notch and the long void, a second one between the two
+/// voids, low ends, and a rim that is lifted over the entrance in the north.
 fn height(x: f64, y: f64) -> f64 {
     let hill = |cx: f64, cy: f64, wx: f64, wy: f64| {
         let (p, q) = ((x - cx) / wx, (y - cy) / wy);
         exp(-p * p - q * q)
     };
-    13.0 * hill(17.0, 1.0, 17.0, 13.0)
-        + 10.5 * hill(-23.0, 2.0, 14.0, 12.0)
-        + 2.6 * hill(-4.0, 14.0, 9.0, 9.0)
-        + 2.2 * hill(-42.0, 0.0, 9.0, 12.0)
-        + 2.6 * hill(42.0, 0.0, 9.0, 12.0)
+    0.3 + 14.2 * hill(17.5, 4.5, 13.5, 12.5)
+        + 10.4 * hill(-17.5, 4.0, 12.0, 12.0)
+        + 3.0 * hill(-38.0, -4.0, 9.0, 11.0)
+        + 3.4 * hill(41.0, 0.0, 9.0, 12.0)
+        + 4.2 * hill(-2.0, 21.0, 11.0, 9.0)
+        + 2.6 * hill(-4.0, -22.0, 12.0, 8.0)
 }

@@ -2,8 +2,8 @@
 //! with the surface to the left.
 
 use super::*;
-use crate::surface::Shape;
 use crate::surface::brep::{BrepEdge, BrepFace, Coedge};
+use crate::surface::{Sampling, Shape, Surface};
 use glam::{DVec2, DVec3};
 
 fn breps() -> impl Iterator<Item = Brep> {
@@ -117,6 +117,82 @@ fn outsides_point_up_and_closed_ones_outwards() {
                 _ => DVec3::Z,
             };
             assert!(outside.dot(wanted) > 0.0, "{}", brep.name);
+        }
+    }
+}
+
+/// Vertices less edges plus triangles of the carrier.
+fn euler_characteristic(surface: &Surface) -> i64 {
+    let triangles = surface.carrier.triangles.len() as i64;
+    let rim: usize = surface.loops.iter().map(|l| l.segments.len()).sum();
+    surface.carrier.points.len() as i64 - (3 * triangles + rim as i64) / 2 + triangles
+}
+
+#[test]
+fn areas_loops_and_corners_are_those_worked_out_by_hand() {
+    // Great Court: measured on an independent NURBS model of the same function. Barrel: arc times length,
+    // 30 x 2 R asin(10 / R) with R = 34 / 3. Saddle, roof and facade: checked below.
+    let barrel = 734.9705203679945;
+    let pi = std::f64::consts::PI;
+    let table: [(&str, Option<f64>, &[usize], i64); 9] = [
+        ("great-court", Some(6180.254), &[4, 0], 0),
+        ("hexagon", Some(24.0 * 3.0_f64.sqrt()), &[6], 1),
+        ("dome", Some(200.0 * pi), &[0], 1),
+        ("saddle", Some(saddle_area()), &[4, 0], 0),
+        ("barrel", Some(barrel), &[4], 1),
+        ("torus", Some(160.0 * pi * pi), &[], 0),
+        ("sphere", Some(400.0 * pi), &[], 2),
+        ("roof", None, &[2, 0, 0], -1),
+        ("facade", None, &[4], 1),
+    ];
+    for (builtin, (name, area, corners, euler)) in ALL.iter().zip(table) {
+        let l0 = builtin.edge_length;
+        let sampling = Sampling { max_edge: 0.7 * l0, chord_error: 0.02 * l0, corner_angle: 0.5 };
+        let surface = model(name).expect("built in").surface(&sampling).expect("a surface");
+        assert_eq!(builtin.name, name);
+        assert_eq!(
+            surface.loops.iter().map(|l| l.corners.len()).collect::<Vec<_>>(),
+            corners,
+            "{name}"
+        );
+        assert_eq!(euler_characteristic(&surface), euler, "{name}");
+        if let Some(area) = area {
+            assert!((surface.area / area - 1.0).abs() < 1e-5, "{name}: {} {area}", surface.area);
+        }
+        for (p, n) in surface.carrier.points.iter().zip(&surface.carrier.normals) {
+            assert!(p.is_finite() && n.is_normalized(), "{name}: {p} {n}");
+        }
+    }
+}
+
+/// The integral of sqrt(1 + |gradient|^2) over the square less that over the disc, by Simpson's rule.
+fn saddle_area() -> f64 {
+    let stretch = |x: f64, y: f64| (1.0 + (x * x + y * y) / 900.0).sqrt();
+    let simpson = |a: f64, b: f64, f: &dyn Fn(f64) -> f64| {
+        let (n, h) = (64, (b - a) / 64.0);
+        let weight = |k: i32| if k == 0 || k == n { 1.0 } else { 2.0 + 2.0 * f64::from(k % 2) };
+        (0..=n).map(|k| weight(k) * f(a + h * f64::from(k))).sum::<f64>() * h / 3.0
+    };
+    let square = simpson(-15.0, 15.0, &|x| simpson(-15.0, 15.0, &|y| stretch(x, y)));
+    let disc = simpson(0.0, 4.5, &|r| {
+        let ring = simpson(0.0, std::f64::consts::TAU, &|a| {
+            stretch(-4.0 + r * crate::math::trig::cos(a), 2.5 + r * crate::math::trig::sin(a))
+        });
+        r * ring
+    });
+    square - disc
+}
+
+#[test]
+fn roof_and_facade_have_the_size_they_say() {
+    for (name, size) in [("roof", [78.0, 39.0, 12.0]), ("facade", [650.0, 240.0, 33.0])] {
+        let sampling = Sampling { max_edge: size[0] / 100.0, chord_error: 0.1, corner_angle: 0.5 };
+        let surface = model(name).expect("built in").surface(&sampling).expect("a surface");
+        let points = &surface.carrier.points;
+        let (low, high) =
+            points.iter().fold((points[0], points[0]), |(l, h), &p| (l.min(p), h.max(p)));
+        for k in 0..3 {
+            assert!(((high - low)[k] / size[k] - 1.0).abs() < 0.02, "{name}: {}", high - low);
         }
     }
 }
