@@ -33,6 +33,7 @@ pub mod io;
 pub mod job;
 pub mod math;
 pub mod mesh;
+pub mod pipeline;
 pub mod recipe;
 pub mod run;
 pub mod stages;

@@ -162,6 +162,11 @@ impl Mesh {
         self.alive
     }
 
+    /// Number of boundary vertices.
+    pub fn boundary_count(&self) -> usize {
+        self.boundary.iter().filter(|&&b| b).count()
+    }
+
     /// Number of edges.
     pub fn edge_count(&self) -> usize {
         self.rings.iter().map(|r| r.len()).sum::<usize>() / 2

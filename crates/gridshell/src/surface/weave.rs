@@ -17,8 +17,8 @@ type Plane = ConstrainedDelaunayTriangulation<Site>;
 
 fn site(node: &Node, scale: DVec2) -> Site {
     let p = node.uv * scale;
-    // The triangulation refuses numbers that are all but zero.
-    let snap = |x: f64| if x.abs() < 1e-60 { 0.0 } else { x };
+    // The triangulation refuses numbers that are all but zero (below about 2e-43); these are lengths.
+    let snap = |x: f64| if x.abs() < 1e-30 { 0.0 } else { x };
     Site(Point2::new(snap(p.x), snap(p.y)))
 }
 

@@ -27,6 +27,16 @@ pub struct Report {
     pub converged: bool,
 }
 
+impl std::fmt::Display for Report {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        write!(
+            f,
+            "{} flips, {} collapses, {} splits, {} drifts, {} refused",
+            self.flips, self.collapses, self.splits, self.drifts, self.refused
+        )
+    }
+}
+
 /// Regularize a grid for members of `length` metres by the recipe's method.
 pub fn regularize(
     surface: &Surface,

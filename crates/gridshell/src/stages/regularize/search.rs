@@ -23,6 +23,9 @@ const LEAST_SHAPE: f64 = 0.55;
 /// What relaxing may at best win back of the lengths' energy after an operation that raises R.
 const HOPE: f64 = 0.6;
 
+/// Weight of the node count against its start, over n: keeps the mean length where it was.
+const COUNT_WEIGHT: f64 = 8.0;
+
 /// An operation on the edge (a, b).
 #[derive(Clone, Copy)]
 enum Operation {
@@ -33,30 +36,37 @@ enum Operation {
 
 /// Anneal `state`.
 pub fn anneal(state: &mut State, options: &Regularize, seed: u64, job: &Job, report: &mut Report) {
-    let mut rng = fastrand::Rng::with_seed(seed);
-    let start = state.grid.mesh.vertex_count() as f64;
-    let range = (start * (1.0 - options.node_range)) as usize
-        ..=(start * (1.0 + options.node_range)).ceil() as usize;
     let trials = options.trials * state.irregular().len().max(1);
+    let mut search = Search::new(state, options, seed);
     for round in 0..ROUNDS {
         for k in 0..trials / ROUNDS {
-            if state.irregular().is_empty() || (k % 256 == 0 && job.stopped()) {
+            if search.state.irregular().is_empty() || (k % 256 == 0 && job.stopped()) {
                 return;
             }
             let done = (round as f64 + k as f64 / (trials / ROUNDS) as f64) / ROUNDS as f64;
-            let temperature = HOT * exp(ln(COLD / HOT) * done);
+            search.temperature = HOT * exp(ln(COLD / HOT) * done);
             if k % 4096 == 0 {
                 job.progress("regularize", done, &[]);
             }
-            let Some((operation, a, b)) = draw(state, &mut rng) else { continue };
-            attempt(state, operation, a, b, temperature, &range, &mut rng, report);
+            search.trial(report);
         }
-        let all: Vec<u32> = state.grid.mesh.vertices().collect();
-        state.relax(&all, 10);
-        state.refresh_all();
-        state.commit();
+        let all: Vec<u32> = search.state.grid.mesh.vertices().collect();
+        search.state.relax(&all, 10);
+        search.state.refresh_all();
+        search.state.commit();
     }
     report.converged = true;
+}
+
+/// The state of one annealing.
+struct Search<'a, 'b> {
+    state: &'a mut State<'b>,
+    rng: fastrand::Rng,
+    temperature: f64,
+    /// Nodes, those on the boundary by half: what the area decides. Now, and at the start.
+    count: f64,
+    target: f64,
+    range: std::ops::RangeInclusive<usize>,
 }
 
 /// Pick an irregular vertex, an interior one three times in four, and an operation near it.
@@ -105,62 +115,77 @@ fn estimate(state: &State, operation: Operation, a: u32, b: u32) -> Option<f64> 
     }
 }
 
-/// Try one operation: keep it with the odds of the temperature.
-#[expect(clippy::too_many_arguments, reason = "the inner step of one loop")]
-fn attempt(
-    state: &mut State,
-    operation: Operation,
-    a: u32,
-    b: u32,
-    temperature: f64,
-    range: &std::ops::RangeInclusive<usize>,
-    rng: &mut fastrand::Rng,
-    report: &mut Report,
-) {
-    let Some(change) = estimate(state, operation, a, b) else { return };
-    let allowance = -temperature * ln(rng.f64().max(1e-300));
-    let count = state.grid.mesh.vertex_count();
-    let in_range = match operation {
-        Operation::Flip => true,
-        Operation::Collapse => range.contains(&(count - 1)),
-        Operation::Split => range.contains(&(count + 1)),
-    };
-    if WEIGHT * change > allowance + HOPE || !in_range {
-        report.refused += 1;
-        return;
+impl<'a, 'b> Search<'a, 'b> {
+    fn new(state: &'a mut State<'b>, options: &Regularize, seed: u64) -> Self {
+        let mesh = &state.grid.mesh;
+        let n = mesh.vertex_count() as f64;
+        let count = n - 0.5 * mesh.boundary_count() as f64;
+        let range = (n * (1.0 - options.node_range)) as usize..=(n * (1.0 + options.node_range)).ceil() as usize;
+        let rng = fastrand::Rng::with_seed(seed);
+        Search { state, rng, temperature: HOT, count, target: count, range }
     }
-    let region = state.region(&[a, b], 2);
-    let before = state.length_energy(&region);
-    let residual_before = weighted_residual(state, &region);
-    let done = match operation {
-        Operation::Flip => state.flip(a, b).map(|_| a),
-        Operation::Collapse => state.collapse(a, b),
-        Operation::Split => state.split(a, b),
-    };
-    let Ok(center) = done else {
-        report.refused += 1;
-        return;
-    };
-    let mut seeds = region;
-    seeds.push(center);
-    let region = state.region(&seeds, 0);
-    state.relax(&region, 4);
-    state.refresh(&region);
-    let touched = state.touched();
-    state.refresh(&touched);
-    let energy = state.length_energy(&region) - before
-        + WEIGHT * (weighted_residual(state, &region) - residual_before);
-    if energy > allowance || state.has_bad_panel(&touched, LEAST_SHAPE) {
-        report.refused += 1;
-        state.roll_back();
-        return;
+
+    /// Try one operation: keep it with the odds of the temperature.
+    fn trial(&mut self, report: &mut Report) {
+        let Some((operation, a, b)) = draw(self.state, &mut self.rng) else { return };
+        let allowance = -self.temperature * ln(self.rng.f64().max(1e-300));
+        let more = match operation {
+            Operation::Flip => 0.0,
+            Operation::Collapse => -count_weight(self.state, a, b),
+            Operation::Split => count_weight(self.state, a, b),
+        };
+        if self.attempt(operation, a, b, more, allowance) {
+            self.state.commit();
+            self.count += more;
+            match operation {
+                Operation::Flip => report.flips += 1,
+                Operation::Collapse => report.collapses += 1,
+                Operation::Split => report.splits += 1,
+            }
+        } else {
+            self.state.roll_back();
+            report.refused += 1;
+        }
     }
-    state.commit();
-    match operation {
-        Operation::Flip => report.flips += 1,
-        Operation::Collapse => report.collapses += 1,
-        Operation::Split => report.splits += 1,
+
+    /// Make the operation and relax round it; whether it is to be kept.
+    fn attempt(&mut self, operation: Operation, a: u32, b: u32, more: f64, allowance: f64) -> bool {
+        let state = &mut *self.state;
+        let Some(change) = estimate(state, operation, a, b) else { return false };
+        let off = self.count - self.target;
+        let count_change = COUNT_WEIGHT * (2.0 * off + more) * more / self.target;
+        let nodes = state.grid.mesh.vertex_count();
+        let in_range = match operation {
+            Operation::Flip => true,
+            Operation::Collapse => self.range.contains(&(nodes - 1)),
+            Operation::Split => self.range.contains(&(nodes + 1)),
+        };
+        if WEIGHT * change + count_change > allowance + HOPE || !in_range {
+            return false;
+        }
+        let region = state.region(&[a, b], 2);
+        let before = state.length_energy(&region) + WEIGHT * weighted_residual(state, &region);
+        let done = match operation {
+            Operation::Flip => state.flip(a, b).map(|_| a),
+            Operation::Collapse => state.collapse(a, b),
+            Operation::Split => state.split(a, b),
+        };
+        let Ok(center) = done else { return false };
+        let mut seeds = region;
+        seeds.push(center);
+        let region = state.region(&seeds, 0);
+        state.relax(&region, 4);
+        state.refresh(&region);
+        let touched = state.touched();
+        state.refresh(&touched);
+        let after = state.length_energy(&region) + WEIGHT * weighted_residual(state, &region);
+        count_change + after - before <= allowance && !state.has_bad_panel(&touched, LEAST_SHAPE)
     }
+}
+
+/// What one node on this edge counts for.
+fn count_weight(state: &State, a: u32, b: u32) -> f64 {
+    if state.grid.mesh.is_boundary_edge(a, b) { 0.5 } else { 1.0 }
 }
 
 fn weighted_residual(state: &State, region: &[u32]) -> f64 {

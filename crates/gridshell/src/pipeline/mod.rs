@@ -1,0 +1,234 @@
+//! The whole method: the only place that knows the order of the stages.
+//!
+//! Several starts (lattices drawn at random and judged in a quick run, or bubble packings) go through
+//! triangulate and regularize side by side; the best grid by [`score`] is relaxed and put on the exact surface.
+//! Every choice is seeded by the recipe and the place in its list, so the grid is the same for any number of
+//! threads. A job that is stopped still ends with the best grid so far.
+
+mod score;
+mod starts;
+
+pub use score::score;
+
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::job::Job;
+use crate::recipe::Recipe;
+use crate::run::{Run, SCHEMA, StageReport, SurfaceSummary};
+use crate::stages::measure::{Quality, irregular_nodes, measure};
+use crate::stages::{regularize, relax, triangulate};
+use crate::surface::{Model, Sampling, Surface, builtin};
+use rayon::prelude::*;
+use starts::{Start, Starts};
+use std::time::Instant;
+
+/// Carrier edges over l0: fine enough for nodes to walk smoothly and boundaries to be followed.
+const CARRIER_EDGE: f64 = 0.5;
+/// Chord error of the carrier over l0. Nodes end on the exact surface; until then they may be this far off.
+const CARRIER_CHORD: f64 = 2e-3;
+/// Nodes of a grid whose edge length nobody gave.
+const SENSIBLE_NODES: usize = 1000;
+/// Beyond this many nodes a wanted length is taken for a slip of the unit.
+const MOST_NODES: f64 = 2e6;
+
+/// Lay a grid on `model`.
+///
+/// # Errors
+/// [`Error::Option`] for a recipe that makes no sense, [`Error::Surface`] for a model that is no surface,
+/// [`Error::NoGrid`] where no valid grid of this edge length exists.
+pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
+    recipe.validate()?;
+    let length = edge_length(model, recipe)?;
+    let surface = model.surface(&sampling(length, recipe))?;
+    let mut stages = Vec::new();
+    let judge = |grid: &Grid| measure(grid, &surface, length, &recipe.measure);
+
+    let clock = Instant::now();
+    let Starts { starts, notes } = starts::starts(&surface, length, recipe, job)?;
+    let packed = clock.elapsed().as_secs_f64();
+
+    let clock = Instant::now();
+    let triangulated: Vec<(Grid, triangulate::Report)> = starts
+        .par_iter()
+        .map(|start| triangulate::triangulate(&surface, &start.bubbles))
+        .collect::<Result<_>>()?;
+    let triangulated_in = clock.elapsed().as_secs_f64();
+
+    let clock = Instant::now();
+    let candidates: Vec<(Grid, regularize::Report, f64)> = triangulated
+        .par_iter()
+        .zip(&starts)
+        .map(|((grid, _), start)| {
+            let (grid, report) = regularize::regularize(&surface, grid.clone(), length, recipe, start.seed, job);
+            let points = score(&judge(&grid));
+            (grid, report, points)
+        })
+        .collect();
+    let best = (0..candidates.len())
+        .max_by(|&a, &b| candidates[a].2.total_cmp(&candidates[b].2).then(b.cmp(&a)))
+        .ok_or_else(|| Error::Surface("the surface has no room for a single node".into()))?;
+    let regularized_in = clock.elapsed().as_secs_f64();
+
+    let Start { report: settled, bubbles, .. } = &starts[best];
+    stages.push(StageReport {
+        name: "pack",
+        seconds: packed,
+        converged: settled.is_none_or(|r| r.converged),
+        quality: None,
+        notes,
+        grid: None,
+    });
+    let (grid, report) = &triangulated[best];
+    let warnings = warnings(&surface, bubbles.len(), report);
+    stages.push(StageReport {
+        name: "triangulate",
+        seconds: triangulated_in,
+        converged: true,
+        quality: Some(judge(grid)),
+        notes: Vec::new(),
+        grid: Some(exact(grid.clone(), &surface)),
+    });
+    let (grid, report, _) = &candidates[best];
+    stages.push(StageReport {
+        name: "regularize",
+        seconds: regularized_in,
+        converged: report.converged,
+        quality: Some(judge(grid)),
+        notes: vec![report.to_string()],
+        grid: Some(exact(grid.clone(), &surface)),
+    });
+
+    let clock = Instant::now();
+    let mut grid = grid.clone();
+    let report = relax::relax(&surface, &mut grid, &recipe.relax, job);
+    let grid = exact(grid, &surface);
+    let quality = judge(&grid);
+    stages.push(StageReport {
+        name: "relax",
+        seconds: clock.elapsed().as_secs_f64(),
+        converged: report.converged,
+        quality: Some(quality.clone()),
+        notes: vec![format!("{} steps, last move {:.1e} l0", report.steps, report.last_move)],
+        grid: Some(grid.clone()),
+    });
+    finish(model, &surface, recipe, length, stages, warnings, quality, grid, job)
+}
+
+#[expect(clippy::too_many_arguments, reason = "the parts of a run, gathered once")]
+fn finish(
+    model: &Model,
+    surface: &Surface,
+    recipe: &Recipe,
+    length: f64,
+    stages: Vec<StageReport>,
+    warnings: Vec<String>,
+    quality: Quality,
+    grid: Grid,
+    job: &Job,
+) -> Result<Run> {
+    check(surface, &grid, &quality, length)?;
+    Ok(Run {
+        schema: SCHEMA,
+        version: env!("CARGO_PKG_VERSION"),
+        seed: recipe.seed,
+        units: "m",
+        surface: SurfaceSummary::new(model, surface),
+        edge_length: length,
+        recipe: recipe.clone(),
+        stages,
+        irregular: irregular_nodes(&grid),
+        quality,
+        warnings,
+        stopped: job.stopped(),
+        grid,
+    })
+}
+
+/// What is promised of every grid: a manifold of the surface's Euler characteristic.
+fn check(surface: &Surface, grid: &Grid, quality: &Quality, length: f64) -> Result<()> {
+    let flaw = grid.mesh.check().err().or_else(|| {
+        let wanted = surface.euler_characteristic();
+        let got = quality.euler_characteristic;
+        (got != wanted).then(|| format!("Euler characteristic {got}, but the surface has {wanted}"))
+    });
+    match flaw {
+        None => Ok(()),
+        Some(message) => Err(Error::NoGrid {
+            at: grid.xyz.first().copied().unwrap_or_default().to_array(),
+            message,
+            edge_length: 0.5 * length,
+        }),
+    }
+}
+
+fn exact(mut grid: Grid, surface: &Surface) -> Grid {
+    grid.settle_exactly(surface);
+    grid
+}
+
+fn warnings(surface: &Surface, wanted: usize, report: &triangulate::Report) -> Vec<String> {
+    let mut warnings: Vec<String> = report
+        .added
+        .iter()
+        .map(|p| {
+            format!(
+                "a node was added near ({:.3}, {:.3}, {:.3}): the surface is narrower there than a member",
+                p.x, p.y, p.z
+            )
+        })
+        .collect();
+    if wanted < 4 * surface.loops.len() {
+        warnings.push("the wanted length is large for this surface; expect a coarse grid".into());
+    }
+    warnings
+}
+
+/// The carrier that suits members of `length` metres.
+fn sampling(length: f64, recipe: &Recipe) -> Sampling {
+    Sampling {
+        max_edge: CARRIER_EDGE * length,
+        chord_error: CARRIER_CHORD * length,
+        corner_angle: recipe.corner_angle_deg.to_radians(),
+    }
+}
+
+/// The wanted length in metres: as given, or from the number of nodes, or a sensible one.
+///
+/// # Errors
+/// [`Error::Option`] when it would make more nodes than anyone wants, [`Error::Surface`] as
+/// [`Model::surface`].
+pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
+    let size = model.size();
+    let rough = Sampling {
+        max_edge: 0.02 * size,
+        chord_error: 1e-3 * size,
+        corner_angle: recipe.corner_angle_deg.to_radians(),
+    };
+    let surface = model.surface(&rough)?;
+    let length = match (recipe.edge_length, recipe.nodes) {
+        (Some(length), _) => length,
+        (None, Some(nodes)) => length_for(&surface, nodes),
+        (None, None) => builtin::ALL
+            .iter()
+            .find(|b| b.name == surface.name)
+            .map_or_else(|| length_for(&surface, SENSIBLE_NODES), |b| b.edge_length),
+    };
+    let nodes = surface.area / (0.5 * 3f64.sqrt() * length * length);
+    if nodes > MOST_NODES {
+        return Err(Error::Option(format!(
+            "an edge length of {length} m makes about {nodes:.0} nodes on {:.0} m2; is it in metres?",
+            surface.area
+        )));
+    }
+    Ok(length)
+}
+
+/// The edge length that makes about `nodes` nodes: n = A / (2 A0) + n_b / 2 + chi (Eq. 1 with the boundary).
+fn length_for(surface: &Surface, nodes: usize) -> f64 {
+    let area = surface.area * 2.0 / 3f64.sqrt();
+    let rim: f64 = surface.loops.iter().map(|l| 0.5 * l.length()).sum();
+    let count = (nodes as f64 - surface.euler_characteristic() as f64).max(3.0);
+    // count = area / l^2 + rim / l, solved for 1 / l.
+    let inverse = ((rim * rim + 4.0 * area * count).sqrt() - rim) / (2.0 * area);
+    1.0 / inverse
+}

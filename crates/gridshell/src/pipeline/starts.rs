@@ -1,0 +1,99 @@
+//! The bubbles that candidates start from.
+
+use super::score;
+use crate::balance::{self, balance};
+use crate::bubbles::Bubbles;
+use crate::error::Result;
+use crate::job::Job;
+use crate::recipe::{self, Recipe};
+use crate::stages::measure::measure;
+use crate::stages::{pack, triangulate};
+use crate::surface::{Surface, chart::Chart};
+use pack::lattice::Lattice;
+use rayon::prelude::*;
+
+/// One start.
+pub struct Start {
+    /// Where the bubbles are.
+    pub bubbles: Bubbles,
+    /// Seed for what follows.
+    pub seed: u64,
+    /// How they settled, where they did.
+    pub report: Option<pack::Report>,
+}
+
+/// The starts of all candidates, and what is to be said about them.
+pub struct Starts {
+    /// At least one.
+    pub starts: Vec<Start>,
+    /// For the user.
+    pub notes: Vec<String>,
+}
+
+/// Draws of a lattice are judged after this many steps of balancing.
+const TRIAL_STEPS: usize = 3;
+
+/// The starts that the recipe asks for; bubbles where a lattice is wanted but the surface has no chart.
+pub fn starts(surface: &Surface, length: f64, recipe: &Recipe, job: &Job) -> Result<Starts> {
+    if recipe.pack.start == recipe::Start::Lattice {
+        if let Some(chart) = Chart::flatten(&surface.carrier, &surface.loops, surface.euler_characteristic()) {
+            return lattices(surface, &chart, length, recipe, job);
+        }
+    }
+    let note = match recipe.pack.start {
+        recipe::Start::Lattice => "the surface is closed or has handles: bubbles instead of a lattice",
+        recipe::Start::Random => "random start",
+    };
+    let seeds: Vec<u64> = match recipe.regularize.method {
+        recipe::RegularizeMethod::Paper => vec![recipe.seed],
+        recipe::RegularizeMethod::Search => (0..recipe.regularize.candidates as u64).map(|k| seed(recipe, k)).collect(),
+    };
+    let starts = seeds.into_par_iter().map(|seed| packing(surface, length, recipe, seed, job)).collect();
+    Ok(Starts { starts, notes: vec![note.to_owned()] })
+}
+
+/// Random bubbles, settled.
+fn packing(surface: &Surface, length: f64, recipe: &Recipe, seed: u64, job: &Job) -> Start {
+    let mut rng = fastrand::Rng::with_seed(seed);
+    let pieces = pack::boundary::pieces(surface);
+    let counts: Vec<usize> = pieces.iter().map(|p| pack::boundary::member_count(p, length)).collect();
+    let boundary = pack::boundary::place(surface, &pieces, &counts, 0.0);
+    let count = pack::interior_count(surface, boundary.len(), length, recipe.pack.k_n);
+    let interior = pack::scatter(surface, count, &mut rng);
+    let mut bubbles = Bubbles { boundary, interior };
+    let report = pack::settle(surface, &mut bubbles, length, &recipe.pack, job);
+    Start { bubbles, seed, report: Some(report) }
+}
+
+/// The best of the lattices drawn.
+fn lattices(surface: &Surface, chart: &Chart, length: f64, recipe: &Recipe, job: &Job) -> Result<Starts> {
+    let pieces = pack::boundary::pieces(surface).len();
+    let draws = recipe.pack.draws.max(1);
+    let trial = balance::Options { straightness: recipe.relax.straightness, settled: 1e-3, max_steps: TRIAL_STEPS };
+    let judged: Vec<Option<(f64, Start)>> = (0..draws as u64)
+        .into_par_iter()
+        .map(|k| {
+            if k > 0 && job.stopped() {
+                return Ok(None);
+            }
+            let seed = seed(recipe, k);
+            let lattice = Lattice::draw(pieces, &mut fastrand::Rng::with_seed(seed));
+            let bubbles = lattice.bubbles(surface, chart, length);
+            let (mut grid, _) = triangulate::triangulate(surface, &bubbles)?;
+            balance(surface, &mut grid, &trial, &Job::default());
+            let points = score(&measure(&grid, surface, length, &recipe.measure));
+            Ok(Some((points, Start { bubbles, seed, report: None })))
+        })
+        .collect::<Result<_>>()?;
+    let mut judged: Vec<(f64, Start)> = judged.into_iter().flatten().collect();
+    // A stable sort: equals stay in the order of their draws.
+    judged.sort_by(|a, b| b.0.total_cmp(&a.0));
+    judged.truncate(recipe.regularize.candidates.max(1));
+    let notes = vec![format!("lattice start: the best {} of {draws} draws", judged.len())];
+    Ok(Starts { starts: judged.into_iter().map(|j| j.1).collect(), notes })
+}
+
+/// A seed of its own for each candidate.
+fn seed(recipe: &Recipe, k: u64) -> u64 {
+    recipe.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(k)
+}
