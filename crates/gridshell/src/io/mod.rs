@@ -49,7 +49,6 @@ pub fn load(path: &Path) -> Result<Model> {
     match extension(path).as_str() {
         "step" | "stp" => step::read(path).map(Model::Brep),
         "obj" | "ply" | "stl" | "off" => read_mesh(path).map(Model::Mesh),
-        "step" | "stp" => step::read(path).map(Model::Brep),
         _ => Err(unknown(path, SURFACE_FORMATS)),
     }
 }
