@@ -91,11 +91,6 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Number of boundary vertices.
-    pub fn boundary_count(&self) -> usize {
-        self.grid.mesh.boundary_count()
-    }
-
     /// Irregular vertices, in an order that depends on history only.
     pub fn irregular(&self) -> &[u32] {
         &self.irregular
