@@ -229,7 +229,7 @@ struct Body<'a> {
     place: String,
 }
 
-impl<'a> Body<'a> {
+impl Body<'_> {
     fn error(&self, message: &str) -> Error {
         scan::error(self.path, self.place.clone(), message)
     }

@@ -82,11 +82,10 @@ fn read_text(path: &Path, bytes: &[u8]) -> Result<PolygonMesh> {
                 };
                 push_facet(&mut mesh, facet);
             }
-            Some("solid" | "facet" | "outer" | "endfacet" | "endsolid") => {}
+            None | Some("solid" | "facet" | "outer" | "endfacet" | "endsolid") => {}
             Some(word) => {
                 return Err(line.error(format!("`{}` is no word of STL", scan::clip(word))));
             }
-            None => {}
         }
     }
     if !corners.is_empty() {
