@@ -231,7 +231,7 @@ fn repeated_degenerate_and_unused_parts_go_and_touching_fans_part() {
 
 #[test]
 fn unknown_names_and_extensions_are_answered_with_the_known_ones() {
-    let message = open("great-curt").err().expect("an error").to_string();
+    let message = open("great-curt").expect_err("no such surface").to_string();
     assert!(message.contains("great-court") && message.contains("facade"), "{message}");
     let message = Scratch::new("roof.xyz", "").refused();
     assert!(message.contains("obj, ply, stl, off"), "{message}");

@@ -3,7 +3,7 @@
 use crate::stages::measure::Quality;
 
 /// The score of a grid: its fluency Q, less what is beyond the guards of length spread, worst panel, extreme
-/// members, mean length and border. Higher is better; a perfect lattice scores [`PERFECT`].
+/// members, mean length and border. Higher is better; a perfect lattice scores `PERFECT`.
 pub fn score(quality: &Quality) -> f64 {
     let over = |x: f64, limit: f64| (x - limit).max(0.0);
     let under = |x: f64, limit: f64| (limit - x).max(0.0);
