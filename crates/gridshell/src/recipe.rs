@@ -86,7 +86,7 @@ pub struct Regularize {
 pub enum RegularizeMethod {
     /// Algorithm 1 of the paper.
     Paper,
-    /// Algorithm 1, then annealed search over edge operations with local relaxation.
+    /// Annealed search over edge operations with local relaxation.
     Search,
 }
 

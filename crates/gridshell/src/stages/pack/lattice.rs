@@ -1,6 +1,7 @@
 //! A lattice start: a triangular lattice laid on a chart of the surface.
 
 use super::boundary::{member_count, pieces, place};
+use super::random::interior_count;
 use crate::bubbles::Bubbles;
 use crate::math::trig::{cos, sin};
 use crate::surface::{Surface, SurfacePoint, chart::Chart};
@@ -13,8 +14,6 @@ pub struct Lattice {
     pub angle: f64,
     /// Shift in units of the two lattice vectors.
     pub offset: [f64; 2],
-    /// Spacing over l0.
-    pub spacing: f64,
     /// No lattice node nearer to the boundary than this, over l0.
     pub margin: f64,
     /// Members added to (or taken from) each boundary piece.
@@ -29,7 +28,6 @@ impl Lattice {
         Lattice {
             angle: rng.f64() * std::f64::consts::FRAC_PI_3,
             offset: [rng.f64(), rng.f64()],
-            spacing: 0.98 + 0.04 * rng.f64(),
             margin: 0.4 + 0.3 * rng.f64(),
             extra: (0..pieces).map(|_| rng.i64(-1..=1)).collect(),
             slide: rng.f64(),
@@ -45,14 +43,27 @@ impl Lattice {
         };
         let counts: Vec<usize> = pieces.iter().zip(&self.extra).map(count).collect();
         let boundary = place(surface, &pieces, &counts, self.slide);
-        let interior = self.interior(surface, chart, length);
+        let wanted = interior_count(surface, boundary.len(), length, 1.0) as f64;
+        let mut step = length;
+        let mut interior = self.interior(surface, chart, length, step);
+        // The strip kept clear along the border and the chart's distortion cost nodes: draw the lattice
+        // closer until it has as many as members of the wanted length ask for.
+        for _ in 0..2 {
+            step *= (interior.len() as f64 / wanted.max(1.0)).sqrt().clamp(0.9, 1.1);
+            interior = self.interior(surface, chart, length, step);
+        }
         Bubbles { boundary, interior }
     }
 
-    /// Lattice points inside the chart and off its boundary, in order of triangles.
-    fn interior(&self, surface: &Surface, chart: &Chart, length: f64) -> Vec<SurfacePoint> {
+    /// Lattice points `step` apart inside the chart and off its boundary, in order of triangles.
+    fn interior(
+        &self,
+        surface: &Surface,
+        chart: &Chart,
+        length: f64,
+        step: f64,
+    ) -> Vec<SurfacePoint> {
         let carrier = &surface.carrier;
-        let step = length * self.spacing;
         let (c, s) = (cos(self.angle), sin(self.angle));
         let a = DVec2::new(c, s) * step;
         let b = a * 0.5 + a.perp() * (0.5 * 3f64.sqrt());

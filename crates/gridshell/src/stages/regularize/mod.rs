@@ -47,9 +47,9 @@ pub fn regularize(
     job: &Job,
 ) -> (Grid, Report) {
     let mut state = State::new(surface, grid, length, recipe.measure.lambda);
-    let mut report = paper::algorithm1(&mut state, &recipe.regularize, job);
-    if recipe.regularize.method == RegularizeMethod::Search {
-        search::anneal(&mut state, &recipe.regularize, seed, job, &mut report);
-    }
+    let report = match recipe.regularize.method {
+        RegularizeMethod::Paper => paper::algorithm1(&mut state, &recipe.regularize, job),
+        RegularizeMethod::Search => search::anneal(&mut state, &recipe.regularize, seed, job),
+    };
     (state.into_grid(), report)
 }

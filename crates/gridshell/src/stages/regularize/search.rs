@@ -24,7 +24,7 @@ const LEAST_SHAPE: f64 = 0.55;
 const HOPE: f64 = 0.6;
 
 /// Weight of the node count against its start, over n: keeps the mean length where it was.
-const COUNT_WEIGHT: f64 = 8.0;
+const COUNT_WEIGHT: f64 = 30.0;
 
 /// An operation on the edge (a, b).
 #[derive(Clone, Copy)]
@@ -35,20 +35,21 @@ enum Operation {
 }
 
 /// Anneal `state`.
-pub fn anneal(state: &mut State, options: &Regularize, seed: u64, job: &Job, report: &mut Report) {
+pub fn anneal(state: &mut State, options: &Regularize, seed: u64, job: &Job) -> Report {
+    let mut report = Report::default();
     let trials = options.trials * state.irregular().len().max(1);
     let mut search = Search::new(state, options, seed);
     for round in 0..ROUNDS {
         for k in 0..trials / ROUNDS {
             if search.state.irregular().is_empty() || (k % 256 == 0 && job.stopped()) {
-                return;
+                return report;
             }
             let done = (round as f64 + k as f64 / (trials / ROUNDS) as f64) / ROUNDS as f64;
             search.temperature = HOT * exp(ln(COLD / HOT) * done);
             if k % 4096 == 0 {
                 job.progress("regularize", done, &[]);
             }
-            search.trial(report);
+            search.trial(&mut report);
         }
         let all: Vec<u32> = search.state.grid.mesh.vertices().collect();
         search.state.relax(&all, 10);
@@ -56,6 +57,7 @@ pub fn anneal(state: &mut State, options: &Regularize, seed: u64, job: &Job, rep
         search.state.commit();
     }
     report.converged = true;
+    report
 }
 
 /// The state of one annealing.
