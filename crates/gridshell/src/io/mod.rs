@@ -75,7 +75,7 @@ pub fn write(path: &Path, grid: &GridFile) -> Result<()> {
     file::replace(path, &encode(grid))
 }
 
-/// Whether [`write`] knows a format for this path: to be asked before long work.
+/// Whether [`write()`] knows a format for this path: to be asked before long work.
 ///
 /// # Errors
 /// [`Error::Option`] listing the known extensions.

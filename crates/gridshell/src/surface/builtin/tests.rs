@@ -123,9 +123,12 @@ fn outsides_point_up_and_closed_ones_outwards() {
 
 /// Vertices less edges plus triangles of the carrier.
 fn euler_characteristic(surface: &Surface) -> i64 {
-    let triangles = surface.carrier.triangles.len() as i64;
+    let count = |n: usize| i64::try_from(n).expect("a count");
+    let triangles = surface.carrier.triangles.len();
     let rim: usize = surface.loops.iter().map(|l| l.segments.len()).sum();
-    surface.carrier.points.len() as i64 - (3 * triangles + rim as i64) / 2 + triangles
+    // Every edge has two sides, those on a loop one.
+    let sides = 3 * triangles + rim;
+    count(surface.carrier.points.len()) - count(sides / 2) + count(triangles)
 }
 
 #[test]
