@@ -50,7 +50,7 @@ pub struct Generate {
     #[arg(short, long, value_name = "FILE.toml")]
     pub recipe: Option<PathBuf>,
     /// Where to write the grid (OBJ, PLY, STL, OFF by extension); may be given more than once.
-    /// Without it, <name>.obj in the current folder.
+    /// Without it, `<name>.obj` in the current folder.
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
     /// Print one JSON document on stdout, and nothing else there.

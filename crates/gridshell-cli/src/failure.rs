@@ -36,6 +36,7 @@ impl Failure {
     }
 
     /// For whatever went wrong while opening the input, a name that is none included.
+    #[expect(clippy::needless_pass_by_value, reason = "the shape that map_err wants")]
     pub fn of_input(error: Error) -> Failure {
         Failure { code: INPUT, message: error.to_string() }
     }

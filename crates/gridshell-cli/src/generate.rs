@@ -27,12 +27,13 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
         given => given.to_vec(),
     };
     write_all(&run, &outputs)?;
-    let wrote: String = outputs.iter().map(|p| format!("wrote {}\n", p.display())).collect();
+    let wrote: Vec<_> = outputs.iter().map(|p| format!("wrote {}", p.display())).collect();
+    let wrote = wrote.join("\n");
     if args.json {
         say::json(&run)?;
-        say::note(wrote.trim_end());
+        say::note(&wrote);
     } else {
-        say::result(&(table::run(&run) + &wrote))?;
+        say::result(&(table::run(&run) + &wrote + "\n"))?;
     }
     Ok(if run.stopped { Outcome::Stopped } else { Outcome::Done })
 }

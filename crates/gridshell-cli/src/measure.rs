@@ -67,7 +67,7 @@ pub fn run(args: &Measure) -> Result<Outcome, Failure> {
 fn sample(model: &Model, edge_length: f64, recipe: &Recipe) -> Result<Surface, Failure> {
     let corner_angle = recipe.corner_angle_deg.to_radians();
     let sampling =
-        Sampling { max_edge: edge_length / 4.0, chord_error: edge_length * 1e-3, corner_angle };
+        Sampling { max_edge: edge_length / 2.0, chord_error: edge_length * 2e-3, corner_angle };
     Ok(model.surface(&sampling)?)
 }
 

@@ -13,7 +13,7 @@ use std::f64::consts::FRAC_PI_3;
 /// The adjusted degree of a regular vertex.
 pub const REGULAR: i32 = 6;
 
-/// alpha_1 to alpha_4 of Eq. 12 in radians: 60 degrees times sqrt(k (k + 1)). Above `alpha_4` the virtual
+/// `alpha_1` to `alpha_4` of Eq. 12 in radians: 60 degrees times sqrt(k (k + 1)). Above `alpha_4` the virtual
 /// degree is 0 whether or not `alpha_5` is passed.
 const LIMITS: [f64; 4] = [
     FRAC_PI_3 * std::f64::consts::SQRT_2,

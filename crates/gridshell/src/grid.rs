@@ -35,7 +35,7 @@ impl Grid {
 
     /// All positions, x y z of one node after the other.
     pub fn flat_xyz(&self) -> Vec<f64> {
-        self.xyz.iter().flat_map(|p| p.to_array()).collect()
+        self.xyz.iter().flat_map(DVec3::to_array).collect()
     }
 
     /// Move every node to the exact surface (and exact boundary) point that its place stands for.

@@ -47,6 +47,7 @@ pub fn open(name_or_path: &str) -> Result<Model> {
 /// manifold surface, [`Error::Option`] listing the known extensions for an unknown one.
 pub fn load(path: &Path) -> Result<Model> {
     match extension(path).as_str() {
+        "step" | "stp" => step::read(path).map(Model::Brep),
         "obj" | "ply" | "stl" | "off" => read_mesh(path).map(Model::Mesh),
         _ => Err(unknown(path, SURFACE_FORMATS)),
     }

@@ -59,7 +59,7 @@ fn parse(text: impl Read) -> std::result::Result<Brep, (String, String)> {
             reading.brep.unit_in_metres = unit.to_si;
         }
         _ => {
-            reading.brep.notes.push("the file names no unit of length: taken as millimetres".into())
+            reading.brep.notes.push("the file names no unit of length: taken as millimetres".into());
         }
     }
     let metres = DMat4::from_scale(DVec3::splat(reading.brep.unit_in_metres));

@@ -266,10 +266,10 @@ proptest::proptest! {
         let mut bytes = if format == 4 {
             binary_ply(false)
         } else {
-                let xyz = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE];
-                let (triangles, edges) = ([[0, 1, 2], [1, 3, 2]], [(0, 1)]);
-                let grid = GridFile { xyz: &xyz, triangles: &triangles, edges: &edges, header: &[] };
-                encoder(Path::new(name)).expect("known")(&grid)
+            let xyz = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE];
+            let (triangles, edges) = ([[0, 1, 2], [1, 3, 2]], [(0, 1)]);
+            let grid = GridFile { xyz: &xyz, triangles: &triangles, edges: &edges, header: &[] };
+            encoder(Path::new(name)).expect("known")(&grid)
         };
         for (at, byte) in damage {
             let n = bytes.len();

@@ -169,7 +169,7 @@ impl Mesh {
 
     /// Number of edges.
     pub fn edge_count(&self) -> usize {
-        self.rings.iter().map(|r| r.len()).sum::<usize>() / 2
+        self.rings.iter().map(Ring::len).sum::<usize>() / 2
     }
 
     /// Number of triangles.

@@ -59,7 +59,8 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         .par_iter()
         .zip(&starts)
         .map(|((grid, _), start)| {
-            let (grid, report) = regularize::regularize(&surface, grid.clone(), length, recipe, start.seed, job);
+            let (grid, report) =
+                regularize::regularize(&surface, grid.clone(), length, recipe, start.seed, job);
             let points = score(&judge(&grid));
             (grid, report, points)
         })

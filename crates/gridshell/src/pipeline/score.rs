@@ -3,7 +3,7 @@
 use crate::stages::measure::Quality;
 
 /// The score of a grid: its fluency Q, less what is beyond the guards of length spread, worst panel, extreme
-/// members, mean length and border. Higher is better; a perfect lattice scores [`PERFECT`].
+/// members, mean length and border. Higher is better; a perfect lattice scores `PERFECT`.
 pub fn score(quality: &Quality) -> f64 {
     let over = |x: f64, limit: f64| (x - limit).max(0.0);
     let under = |x: f64, limit: f64| (limit - x).max(0.0);
@@ -17,6 +17,7 @@ pub fn score(quality: &Quality) -> f64 {
         - 40.0 * over((mean - 1.0).abs(), 0.02)
         - 20.0 * under(quality.border.shape_mean, 0.96)
         - 10.0 * over(quality.border.edge_length_cv, 0.11)
+        - 100.0 * under(quality.area_ratio, 0.99)
         - 10.0 * quality.folded_panels as f64
         - 10.0 * quality.bridging_members as f64
 }

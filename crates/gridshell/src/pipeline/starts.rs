@@ -4,6 +4,7 @@ use super::score;
 use crate::balance::{self, balance};
 use crate::bubbles::Bubbles;
 use crate::error::Result;
+use crate::grid::Grid;
 use crate::job::Job;
 use crate::recipe::{self, Recipe};
 use crate::stages::measure::measure;
@@ -36,19 +37,26 @@ const TRIAL_STEPS: usize = 3;
 /// The starts that the recipe asks for; bubbles where a lattice is wanted but the surface has no chart.
 pub fn starts(surface: &Surface, length: f64, recipe: &Recipe, job: &Job) -> Result<Starts> {
     if recipe.pack.start == recipe::Start::Lattice {
-        if let Some(chart) = Chart::flatten(&surface.carrier, &surface.loops, surface.euler_characteristic()) {
+        if let Some(chart) =
+            Chart::flatten(&surface.carrier, &surface.loops, surface.euler_characteristic())
+        {
             return lattices(surface, &chart, length, recipe, job);
         }
     }
     let note = match recipe.pack.start {
-        recipe::Start::Lattice => "the surface is closed or has handles: bubbles instead of a lattice",
+        recipe::Start::Lattice => {
+            "the surface is closed or has handles: bubbles instead of a lattice"
+        }
         recipe::Start::Random => "random start",
     };
     let seeds: Vec<u64> = match recipe.regularize.method {
         recipe::RegularizeMethod::Paper => vec![recipe.seed],
-        recipe::RegularizeMethod::Search => (0..recipe.regularize.candidates as u64).map(|k| seed(recipe, k)).collect(),
+        recipe::RegularizeMethod::Search => {
+            (0..recipe.regularize.candidates as u64).map(|k| seed(recipe, k)).collect()
+        }
     };
-    let starts = seeds.into_par_iter().map(|seed| packing(surface, length, recipe, seed, job)).collect();
+    let starts =
+        seeds.into_par_iter().map(|seed| packing(surface, length, recipe, seed, job)).collect();
     Ok(Starts { starts, notes: vec![note.to_owned()] })
 }
 
@@ -56,7 +64,8 @@ pub fn starts(surface: &Surface, length: f64, recipe: &Recipe, job: &Job) -> Res
 fn packing(surface: &Surface, length: f64, recipe: &Recipe, seed: u64, job: &Job) -> Start {
     let mut rng = fastrand::Rng::with_seed(seed);
     let pieces = pack::boundary::pieces(surface);
-    let counts: Vec<usize> = pieces.iter().map(|p| pack::boundary::member_count(p, length)).collect();
+    let counts: Vec<usize> =
+        pieces.iter().map(|p| pack::boundary::member_count(p, length)).collect();
     let boundary = pack::boundary::place(surface, &pieces, &counts, 0.0);
     let count = pack::interior_count(surface, boundary.len(), length, recipe.pack.k_n);
     let interior = pack::scatter(surface, count, &mut rng);
@@ -66,10 +75,20 @@ fn packing(surface: &Surface, length: f64, recipe: &Recipe, seed: u64, job: &Job
 }
 
 /// The best of the lattices drawn.
-fn lattices(surface: &Surface, chart: &Chart, length: f64, recipe: &Recipe, job: &Job) -> Result<Starts> {
+fn lattices(
+    surface: &Surface,
+    chart: &Chart,
+    length: f64,
+    recipe: &Recipe,
+    job: &Job,
+) -> Result<Starts> {
     let pieces = pack::boundary::pieces(surface).len();
     let draws = recipe.pack.draws.max(1);
-    let trial = balance::Options { straightness: recipe.relax.straightness, settled: 1e-3, max_steps: TRIAL_STEPS };
+    let trial = balance::Options {
+        straightness: recipe.relax.straightness,
+        settled: 1e-3,
+        max_steps: TRIAL_STEPS,
+    };
     let judged: Vec<Option<(f64, Start)>> = (0..draws as u64)
         .into_par_iter()
         .map(|k| {
@@ -77,9 +96,14 @@ fn lattices(surface: &Surface, chart: &Chart, length: f64, recipe: &Recipe, job:
                 return Ok(None);
             }
             let seed = seed(recipe, k);
-            let lattice = Lattice::draw(pieces, &mut fastrand::Rng::with_seed(seed));
+            let mut rng = fastrand::Rng::with_seed(seed);
+            let mut lattice = Lattice::draw(pieces, &mut rng);
+            // Every other draw runs with the border somewhere, the longer the stretch the likelier.
+            if k % 2 == 0 {
+                lattice.angle = chart.border_direction(&surface.loops, rng.f64());
+            }
             let bubbles = lattice.bubbles(surface, chart, length);
-            let (mut grid, _) = triangulate::triangulate(surface, &bubbles)?;
+            let mut grid = connect(surface, chart, &bubbles)?;
             balance(surface, &mut grid, &trial, &Job::default());
             let points = score(&measure(&grid, surface, length, &recipe.measure));
             Ok(Some((points, Start { bubbles, seed, report: None })))
@@ -91,6 +115,19 @@ fn lattices(surface: &Surface, chart: &Chart, length: f64, recipe: &Recipe, job:
     judged.truncate(recipe.regularize.candidates.max(1));
     let notes = vec![format!("lattice start: the best {} of {draws} draws", judged.len())];
     Ok(Starts { starts: judged.into_iter().map(|j| j.1).collect(), notes })
+}
+
+/// Triangulate in the chart where that works, else on the carrier.
+fn connect(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Result<Grid> {
+    let quick = if chart.upright {
+        triangulate::triangulate_in_chart(surface, chart, bubbles)
+    } else {
+        None
+    };
+    match quick {
+        Some(grid) => Ok(grid),
+        None => Ok(triangulate::triangulate(surface, bubbles)?.0),
+    }
 }
 
 /// A seed of its own for each candidate.

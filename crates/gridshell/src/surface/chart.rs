@@ -7,7 +7,7 @@
 //! still overlap itself (a spiral does), which a lattice does not mind.
 
 use super::{Carrier, Chain};
-use crate::math::trig::{cos, sin};
+use crate::math::trig::{atan2, cos, sin};
 use glam::{DMat2, DVec2, DVec3};
 
 /// Local/global steps from a projection, and from Tutte's embedding, which is farther off.
@@ -22,6 +22,8 @@ const LEAST_WEIGHT: f64 = 0.02;
 pub struct Chart {
     /// Indexed as `Carrier::points`.
     pub uv: Vec<DVec2>,
+    /// Whether no triangle is turned over (it may still overlap itself as a whole).
+    pub upright: bool,
 }
 
 impl Chart {
@@ -38,7 +40,27 @@ impl Chart {
             Some(uv) => (uv, STEPS[0]),
             None => (tutte(carrier, loops), STEPS[1]),
         };
-        Some(Chart { uv: as_rigid_as_possible(carrier, uv, steps) })
+        let mut chart = Chart { uv: as_rigid_as_possible(carrier, uv, steps), upright: true };
+        chart.upright = (0..carrier.triangles.len()).all(|t| {
+            let [p, q, r] = chart.corners(carrier, t);
+            (q - p).perp_dot(r - p) > 0.0
+        });
+        Some(chart)
+    }
+
+    /// Direction of the border at this share (0 to 1) of its whole length, loop after loop, radians.
+    pub fn border_direction(&self, loops: &[Chain], share: f64) -> f64 {
+        let mut at = share * loops.iter().map(Chain::length).sum::<f64>();
+        for chain in loops {
+            if at < chain.length() {
+                let (k, _) = chain.locate(at);
+                let next = chain.vertices[(k + 1) % chain.vertices.len()];
+                let d = self.uv[next as usize] - self.uv[chain.vertices[k] as usize];
+                return atan2(d.y, d.x);
+            }
+            at -= chain.length();
+        }
+        0.0
     }
 
     /// Corners of carrier triangle `t` in the plane.

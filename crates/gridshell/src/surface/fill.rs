@@ -33,6 +33,10 @@ pub(super) fn inside(shape: &Shape, loops: &[Vec<Node>], sampling: &Sampling) ->
         for i in 0..l.len() {
             let (a, b) = (&l[i], &l[(i + 1) % l.len()]);
             let length = a.xyz.distance(b.xyz);
+            if a.free.is_some() && a.vertex == b.vertex {
+                taken.push(a.xyz, DVec3::ZERO, sizes.at(a.uv));
+                continue;
+            }
             let size =
                 sizes.at(0.5 * (a.uv + b.uv)).min(length).max(sampling.max_edge * LEAST_SHARE);
             // A piece longer than the spacing beside it must keep points off between its ends too.

@@ -11,8 +11,10 @@ pub struct Locator<'a> {
     surface: &'a Surface,
     facets: RTree<Facet>,
     /// Segments of the loops, with (loop, segment).
-    borders: RTree<GeomWithData<Line<[f64; 3]>, (u32, u32)>>,
+    borders: RTree<Border>,
 }
+
+type Border = GeomWithData<Line<[f64; 3]>, (u32, u32)>;
 
 /// One carrier triangle in the tree.
 struct Facet {

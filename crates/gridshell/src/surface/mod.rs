@@ -26,6 +26,7 @@ mod sample;
 mod seam;
 pub mod shape;
 mod size;
+mod stretch;
 pub mod tessellate;
 mod trim;
 mod weave;

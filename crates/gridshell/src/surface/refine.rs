@@ -17,6 +17,8 @@ const MAX_ROUNDS: usize = 12;
 /// Two angles that face each other sum to more than half a turn when their cotangents sum to less than
 /// this; a little below 0 so that squares do not flip for ever.
 const COTANGENT_SUM: f64 = -1e-9;
+/// The middle of an edge may lie this share of its length beside the edge, within the patch.
+const BESIDE: f64 = 0.15;
 /// An edge counts as too long from this share above the bound.
 const TOLERANCE: f64 = 1e-9;
 
@@ -68,6 +70,38 @@ impl<'a> Web<'a> {
             .collect();
         let neighbors = super::carrier::adjacency(&triangles);
         Web { shape, nodes, triangles, neighbors, fixed }
+    }
+
+    /// Inner nodes where two edges lead to the same pole: seen in space the surface is pinched there.
+    pub fn pinches(&self) -> Vec<u32> {
+        let mut spokes: Vec<(u32, u32)> = Vec::new();
+        for t in &self.triangles {
+            for k in 0..3 {
+                let (pole, a, b) = (t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
+                if self.nodes[pole as usize].free.is_some() {
+                    spokes.extend([(pole, a), (pole, b)]);
+                }
+            }
+        }
+        spokes.sort_unstable();
+        let mut pinches = Vec::new();
+        for group in spokes.chunk_by(|a, b| a == b) {
+            if group.len() <= 2 {
+                continue;
+            }
+            let (pole, outer) = group[0];
+            if self.nodes[outer as usize].vertex == NEW {
+                pinches.push(outer);
+                continue;
+            }
+            // A node of the rim stays: what lies between it and the pole goes.
+            for t in self.triangles.iter().filter(|t| t.contains(&pole) && t.contains(&outer)) {
+                pinches.extend(t.iter().filter(|&&n| self.nodes[n as usize].vertex == NEW));
+            }
+        }
+        pinches.sort_unstable();
+        pinches.dedup();
+        pinches
     }
 
     /// Flip and split until every inner edge keeps the sampling.
@@ -122,6 +156,9 @@ impl<'a> Web<'a> {
         if c == d || cotangent(pa - pc, pb - pc) + cotangent(pa - pd, pb - pd) >= COTANGENT_SUM {
             return None;
         }
+        if self.joined(t, c, d) {
+            return None;
+        }
         // Both new triangles must look the same way as the old ones, in space and in (u, v).
         let up = (pb - pa).cross(pc - pa).normalize_or_zero()
             + (pa - pb).cross(pd - pb).normalize_or_zero();
@@ -153,6 +190,28 @@ impl<'a> Web<'a> {
         self.relink(far[0].0, d, t as u32);
         self.relink(near[0].0, c, o as u32);
         Some(o as u32)
+    }
+
+    /// Whether an edge already joins `c`, a corner of triangle `t`, to `d`.
+    fn joined(&self, t: u32, c: u32, d: u32) -> bool {
+        // Round c one way, and from a boundary the other way.
+        for way in [2, 0] {
+            let mut here = t;
+            while let Some(k) = self.edge_from(here, c) {
+                let next = self.neighbors[here as usize][(k + way) % 3];
+                if next == NONE {
+                    break;
+                }
+                if self.triangles[next as usize].contains(&d) {
+                    return true;
+                }
+                if next == t {
+                    return false;
+                }
+                here = next;
+            }
+        }
+        false
     }
 
     /// Which edge of triangle `t` begins at node `from`.
@@ -230,15 +289,19 @@ impl<'a> Web<'a> {
         !long.is_empty()
     }
 
-    /// Whether the patch bulges away from the edge by more than the chord error.
+    /// Whether the patch bulges away from the edge by more than the chord error, or the straight line in
+    /// (u, v) runs far beside the edge (as it does round a pole).
     fn sags(&self, a: u32, b: u32, length: f64, sampling: &Sampling) -> bool {
         if length < 2.0 * LEAST_SHARE * sampling.max_edge {
             return false;
         }
         let (pa, pb) = (self.xyz(a), self.xyz(b));
-        let d = self.shape.point(self.middle(a, b)) - 0.5 * (pa + pb);
+        let jet = self.shape.jet(self.middle(a, b));
+        let d = jet.point - 0.5 * (pa + pb);
         let along = (pb - pa) / length;
-        (d - along * d.dot(along)).length() > sampling.chord_error
+        let off = d - along * d.dot(along);
+        let bulge = off.dot(jet.normal()).abs();
+        bulge > sampling.chord_error || off.length() - bulge > BESIDE * length
     }
 
     /// ```text

@@ -6,6 +6,9 @@ use glam::{DVec2, DVec3};
 /// A side whose points lie within this share of the patch's size is one point: a pole.
 const POLE_SHARE: f64 = 1e-6;
 
+/// Derivatives in this proportion to each other are those of a pole.
+const POLE_SLOPE: f64 = 1e-12;
+
 /// Value and first derivatives of a patch at one (u, v).
 #[derive(Clone, Copy, Debug)]
 pub struct Jet {
@@ -42,7 +45,10 @@ pub struct Pole {
 impl Jet {
     /// Unit normal along du x dv; zero at a pole.
     pub fn normal(&self) -> DVec3 {
-        self.du.cross(self.dv).normalize_or_zero()
+        let n = self.du.cross(self.dv);
+        // At a pole rounding leaves a derivative of no meaning.
+        let size = self.du.length_squared() + self.dv.length_squared();
+        if n.length() > POLE_SLOPE * size { n.normalize_or_zero() } else { DVec3::ZERO }
     }
 }
 

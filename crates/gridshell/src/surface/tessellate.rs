@@ -8,6 +8,7 @@ use super::model::Sampling;
 use super::orient::{self, Wing};
 use super::refine::Web;
 use super::shape::Shape;
+use super::stretch::Stretch;
 use super::trim::{Edges, NEW, Node, Polyline, Tracer, Trim};
 use super::{Carrier, Surface, area, chain, fill, sample, seam, weave};
 use crate::error::{Error, Result};
@@ -17,6 +18,9 @@ use std::f64::consts::PI;
 
 /// More triangles than this are not made.
 const MOST_TRIANGLES: f64 = 8e6;
+
+/// Rounds of leaving out nodes that pinch the surface at a pole.
+const MOST_PINCHES: usize = 20;
 
 /// The triangles of one face.
 struct Piece {
@@ -158,9 +162,12 @@ fn piece(
     sampling: &Sampling,
 ) -> std::result::Result<Piece, String> {
     let shape = &face.shape;
-    let Trim { loops, sliver } = Tracer::new(shape, edges, sampling).trim(face)?;
-    let scale = mean_metric(shape, &loops);
-    let rough = polygon_area(&loops, scale) / (sampling.max_edge * sampling.max_edge);
+    let tracer = Tracer::new(shape, edges, sampling);
+    let Trim { loops, sliver } = tracer.trim(face)?;
+    let all = || loops.iter().flatten().map(|n| n.uv);
+    let (lo, hi) = (all().fold(DVec2::MAX, DVec2::min), all().fold(DVec2::MIN, DVec2::max));
+    let stretch = Stretch::new(shape, tracer.poles(), lo, hi, sampling.max_edge);
+    let rough = polygon_area(&loops, stretch.scale()) / (sampling.max_edge * sampling.max_edge);
     if rough > MOST_TRIANGLES {
         return Err("the edge length is too small for so large a face; ask for a longer one".into());
     }
@@ -173,11 +180,7 @@ fn piece(
         from += n;
     }
     nodes.extend(fill::inside(shape, &loops, sampling));
-    let triangles = weave::triangles(&nodes, &rims, scale).map_err(|i| {
-        let p = nodes[i].xyz;
-        format!("its boundary crosses itself near ({:.4}, {:.4}, {:.4})", p.x, p.y, p.z)
-    })?;
-    let mut web = Web::new(shape, nodes, &triangles, &rims);
+    let mut web = weave_web(shape, nodes, &rims, &stretch)?;
     web.refine(sampling);
     let area: f64 = web
         .triangles
@@ -187,6 +190,33 @@ fn piece(
     Ok(Piece { nodes: web.nodes, triangles: web.triangles, area: area + sliver })
 }
 
+/// Triangulate the nodes. Nodes that pinch the surface at a pole are left out, and all is done again.
+fn weave_web<'a>(
+    shape: &'a Shape,
+    mut nodes: Vec<Node>,
+    rims: &[[u32; 2]],
+    stretch: &Stretch,
+) -> std::result::Result<Web<'a>, String> {
+    for _ in 0..MOST_PINCHES {
+        let triangles = weave::triangles(&nodes, rims, stretch).map_err(|i| {
+            let p = nodes[i].xyz;
+            format!("its boundary crosses itself near ({:.4}, {:.4}, {:.4})", p.x, p.y, p.z)
+        })?;
+        let web = Web::new(shape, nodes, &triangles, rims);
+        let pinches = web.pinches();
+        if pinches.is_empty() {
+            return Ok(web);
+        }
+        nodes = web.nodes;
+        let mut i = 0;
+        nodes.retain(|_| {
+            i += 1;
+            pinches.binary_search(&(i - 1)).is_err()
+        });
+    }
+    Err("its triangles do not fit together at a pole".into())
+}
+
 /// Parameters of a node as the carrier keeps them: NaN where a pole leaves one without meaning.
 fn parameters(node: &Node) -> DVec2 {
     let mut uv = node.uv;
@@ -194,21 +224,6 @@ fn parameters(node: &Node) -> DVec2 {
         uv[k] = f64::NAN;
     }
     uv
-}
-
-/// Mean lengths of the derivatives over the polygons' box.
-fn mean_metric(shape: &Shape, loops: &[Vec<Node>]) -> DVec2 {
-    const EACH: usize = 12;
-    let all = || loops.iter().flatten().map(|n| n.uv);
-    let (lo, hi) = (all().fold(DVec2::MAX, DVec2::min), all().fold(DVec2::MIN, DVec2::max));
-    let mut sum = DVec2::ZERO;
-    for k in 0..EACH * EACH {
-        let share = DVec2::new((k / EACH) as f64 + 0.5, (k % EACH) as f64 + 0.5) / EACH as f64;
-        let jet = shape.jet(lo + (hi - lo) * share);
-        sum += DVec2::new(jet.du.length(), jet.dv.length());
-    }
-    let mean = sum / (EACH * EACH) as f64;
-    mean.max(DVec2::splat(1e-12))
 }
 
 fn polygon_area(loops: &[Vec<Node>], scale: DVec2) -> f64 {

@@ -63,7 +63,7 @@ struct Search<'a, 'b> {
     state: &'a mut State<'b>,
     rng: fastrand::Rng,
     temperature: f64,
-    /// Nodes, those on the boundary by half: what the area decides. Now, and at the start.
+    /// Nodes, those on the boundary by half: what the area decides. Now, and as wanted.
     count: f64,
     target: f64,
     range: std::ops::RangeInclusive<usize>,
@@ -120,9 +120,14 @@ impl<'a, 'b> Search<'a, 'b> {
         let mesh = &state.grid.mesh;
         let n = mesh.vertex_count() as f64;
         let count = n - 0.5 * mesh.boundary_count() as f64;
-        let range = (n * (1.0 - options.node_range)) as usize..=(n * (1.0 + options.node_range)).ceil() as usize;
+        let range = (n * (1.0 - options.node_range)) as usize
+            ..=(n * (1.0 + options.node_range)).ceil() as usize;
         let rng = fastrand::Rng::with_seed(seed);
-        Search { state, rng, temperature: HOT, count, target: count, range }
+        // As many as members of the wanted length leave room for (Eq. 1).
+        let surface = state.surface;
+        let panel = 3f64.sqrt() / 4.0 * state.length * state.length;
+        let target = surface.area / (2.0 * panel) + surface.euler_characteristic() as f64;
+        Search { state, rng, temperature: HOT, count, target, range }
     }
 
     /// Try one operation: keep it with the odds of the temperature.

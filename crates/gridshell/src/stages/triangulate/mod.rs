@@ -8,6 +8,9 @@
 //! (a neck or handle narrower than a member), carrier vertices stay as nodes and the report names them.
 
 mod intrinsic;
+mod planar;
+
+pub use planar::triangulate as triangulate_in_chart;
 
 use crate::bubbles::Bubbles;
 use crate::error::Result;
@@ -133,7 +136,7 @@ fn insert_boundary(
         let (start, end) = (chain.vertices[k], chain.vertices[(k + 1) % count]);
         let is_corner = |k: usize| chain.corners.binary_search(&(k as u32)).is_ok();
         const HAIR: f64 = 1e-6;
-        if fraction < HAIR && is_corner(k) {
+        if fraction == 0.0 && is_corner(k) {
             nodes.push((start, Place::Corner(*point)));
             continue;
         }
