@@ -1,7 +1,10 @@
 //! Reading, welding and writing meshes, over files written to the system's temporary folder.
 
 use super::*;
+use crate::mesh::Mesh;
+use crate::surface::Sampling;
 use glam::DVec3;
+use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
@@ -11,7 +14,7 @@ struct Scratch(PathBuf);
 impl Scratch {
     fn new(name: &str, contents: impl AsRef<[u8]>) -> Scratch {
         let path = std::env::temp_dir().join(format!("gridshell-{}-{name}", std::process::id()));
-        fs::write(&path, contents).unwrap();
+        fs::write(&path, contents).expect("room in the temporary folder");
         Scratch(path)
     }
 
@@ -37,14 +40,14 @@ const FAR: &str = "v 500000.0000000001 4000000.1234567 0.1\nv 500001 4000000 0\n
 
 #[test]
 fn obj_keeps_far_coordinates_and_understands_negative_indices() {
-    let mesh = Scratch::new("far.obj", FAR).read().unwrap();
+    let mesh = Scratch::new("far.obj", FAR).read().expect("a mesh");
     assert_eq!(mesh.points[0], DVec3::new(500000.0000000001, 4000000.1234567, 0.1));
     assert_eq!(mesh.faces, vec![vec![0, 1, 2], vec![0, 2, 3], vec![1, 4, 5, 2]]);
 }
 
 #[test]
 fn grids_read_back_exactly_from_every_format() {
-    let mesh = Scratch::new("source.obj", FAR).read().unwrap();
+    let mesh = Scratch::new("source.obj", FAR).read().expect("a mesh");
     let triangles = [[0, 1, 2], [0, 2, 3], [1, 4, 5], [1, 5, 2]];
     let edges = [(0, 1), (1, 2), (2, 0)];
     let header = ["gridshell test, seed 1".to_owned(), "unit: metre".to_owned()];
@@ -62,14 +65,14 @@ fn grids_read_back_exactly_from_every_format() {
             &GridFile { xyz: &xyz, triangles: &triangles, edges: &edges, header: &header },
         )
         .unwrap();
-        let back = file.read().unwrap();
+        let back = file.read().expect("a mesh");
         assert_eq!(back.points.len(), xyz.len(), "{extension}");
         assert_eq!(back.faces.len(), 4, "{extension}");
         for (face, t) in back.faces.iter().zip(&triangles) {
             let corners: Vec<DVec3> = face.iter().map(|&v| back.points[v as usize]).collect();
             assert_eq!(corners, t.map(|v| xyz[v as usize]), "{extension}");
         }
-        let text = String::from_utf8_lossy(&fs::read(&file.0).unwrap()).into_owned();
+        let text = String::from_utf8_lossy(&fs::read(&file.0).expect("just written")).into_owned();
         assert!(text.contains("metre"), "{extension} states the unit");
         if extension == "obj" {
             assert!(text.contains("\nl 3 1\n"));
@@ -109,7 +112,7 @@ fn binary_ply(big: bool) -> Vec<u8> {
 fn ply_reads_both_byte_orders_and_names_the_vertex_it_is_cut_at() {
     for big in [false, true] {
         let bytes = binary_ply(big);
-        let mesh = Scratch::new(&format!("{big}.ply"), &bytes).read().unwrap();
+        let mesh = Scratch::new(&format!("{big}.ply"), &bytes).read().expect("a mesh");
         assert_eq!(mesh.points[2], DVec3::new(1.0, 1.0, 7.25));
         assert_eq!(mesh.faces, vec![vec![0, 1, 2, 3]]);
         let cut = Scratch::new(&format!("cut-{big}.ply"), &bytes[..bytes.len() - 50]).refused();
@@ -175,7 +178,7 @@ fn text_stl_is_welded_to_one_piece() {
         facet([[0, 0, 0], [1, 0, 0], [0, 1, 0]]),
         facet([[1, 0, 0], [0, 1, 0], [1, 1, 0]])
     );
-    let mesh = Scratch::new("text.stl", text).read().unwrap();
+    let mesh = Scratch::new("text.stl", text).read().expect("a mesh");
     assert_eq!((mesh.points.len(), mesh.faces.len()), (4, 2));
     assert!(mesh.notes.iter().any(|n| n.contains("merged 2")), "{:?}", mesh.notes);
     assert!(mesh.notes.iter().any(|n| n.contains("turned 1")), "{:?}", mesh.notes);
@@ -188,7 +191,7 @@ fn text_stl_is_welded_to_one_piece() {
 #[test]
 fn closed_mesh_turned_inside_out_is_turned_back() {
     let tetrahedron = "v 0 0 9\nv 1 0 9\nv 0 1 9\nv 0 0 10\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
-    let mesh = Scratch::new("closed.obj", tetrahedron).read().unwrap();
+    let mesh = Scratch::new("closed.obj", tetrahedron).read().expect("a mesh");
     let centre = mesh.points.iter().sum::<DVec3>() / 4.0;
     for face in &mesh.faces {
         let [a, b, c] = [0, 1, 2].map(|k| mesh.points[face[k] as usize]);
@@ -208,11 +211,11 @@ fn moebius_strip_is_refused() {
     // Five quads in a ring; the last one joins the first upside down.
     let mut text = String::new();
     for k in 0..5 {
-        text += &format!("v {k} 0 {k}\nv {k} 1 {}\n", k * k);
+        let _ = write!(text, "v {k} 0 {k}\nv {k} 1 {}\n", k * k);
     }
     for k in 0..4 {
         let a = 2 * k + 1;
-        text += &format!("f {} {} {} {}\n", a, a + 1, a + 3, a + 2);
+        let _ = writeln!(text, "f {} {} {} {}", a, a + 1, a + 3, a + 2);
     }
     text += "f 9 10 1 2\n";
     assert!(Scratch::new("strip.obj", text).refused().contains("one side"));
@@ -222,16 +225,64 @@ fn moebius_strip_is_refused() {
 fn repeated_degenerate_and_unused_parts_go_and_touching_fans_part() {
     let text = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv -1 0 0\nv -1 -1 0\nv 1 1 0.00000000001\n\
                 f 2 3 4\nf 3 4 2\nf 2 2 3\nf 4 7 4\nf 2 5 6\n";
-    let mesh = Scratch::new("mixed.obj", text).read().unwrap();
+    let mesh = Scratch::new("mixed.obj", text).read().expect("a mesh");
     assert_eq!((mesh.points.len(), mesh.faces.len()), (6, 2), "{:?}", mesh.notes);
     for told in ["merged 1", "2 degenerate", "1 repeated", "2 separate", "parted 1"] {
         assert!(mesh.notes.iter().any(|n| n.contains(told)), "{told}: {:?}", mesh.notes);
     }
 }
 
+proptest::proptest! {
+    /// Whatever the faces, the door lets through only what makes a manifold once it is in triangles.
+    #[test]
+    fn what_passes_the_door_is_a_manifold(
+        points in proptest::collection::vec(proptest::array::uniform3(0_i8..4), 4..9),
+        faces in proptest::collection::vec(proptest::collection::vec(0_usize..9, 3..6), 1..8),
+    ) {
+        let mut text = String::new();
+        for [x, y, z] in &points {
+            let _ = writeln!(text, "v {x} {y} {z}");
+        }
+        for face in faces {
+            let corners: Vec<String> = face.iter().map(|v| (v % points.len() + 1).to_string()).collect();
+            let _ = writeln!(text, "f {}", corners.join(" "));
+        }
+        if let Ok(mesh) = Scratch::new("soup.obj", text).read() {
+            let sampling = Sampling { max_edge: 1.0, chord_error: 0.1, corner_angle: 0.5 };
+            let surface = mesh.surface(&sampling).expect("a surface");
+            let carrier = &surface.carrier;
+            Mesh::from_triangles(carrier.points.len(), &carrier.triangles).expect("a manifold");
+        }
+    }
+
+    /// Readers answer damaged files with a mesh or an error, never a panic.
+    #[test]
+    fn damaged_files_do_no_harm(
+        format in 0_usize..5,
+        cut in 0_usize..400,
+        damage in proptest::collection::vec((0_usize..400, proptest::num::u8::ANY), 0..6),
+    ) {
+        let name = ["a.obj", "b.off", "c.stl", "d.ply", "e.ply"][format];
+        let mut bytes = if format == 4 {
+            binary_ply(false)
+        } else {
+            let xyz = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE];
+            let (triangles, edges) = ([[0, 1, 2], [1, 3, 2]], [(0, 1)]);
+            let grid = GridFile { xyz: &xyz, triangles: &triangles, edges: &edges, header: &[] };
+            encoder(Path::new(name)).expect("known")(&grid)
+        };
+        for (at, byte) in damage {
+            let n = bytes.len();
+            bytes[at % n] = byte;
+        }
+        bytes.truncate(bytes.len().saturating_sub(cut.saturating_sub(200)));
+        let _ = Scratch::new(&format!("damaged-{name}"), bytes).read();
+    }
+}
+
 #[test]
 fn unknown_names_and_extensions_are_answered_with_the_known_ones() {
-    let message = open("great-curt").expect_err("no such surface").to_string();
+    let message = open("great-curt").expect_err("an error").to_string();
     assert!(message.contains("great-court") && message.contains("facade"), "{message}");
     let message = Scratch::new("roof.xyz", "").refused();
     assert!(message.contains("obj, ply, stl, off"), "{message}");

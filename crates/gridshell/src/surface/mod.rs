@@ -7,6 +7,7 @@
 mod area;
 pub mod brep;
 pub mod builtin;
+mod cap;
 pub mod carrier;
 pub mod chain;
 pub mod chart;

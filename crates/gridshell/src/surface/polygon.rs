@@ -4,10 +4,10 @@
 
 use super::chain::boundary_loops;
 use super::ear::split;
-use super::{Carrier, PolygonMesh, Sampling, Surface};
+use super::{Carrier, PolygonMesh, Sampling, Surface, cap};
 use crate::error::{Error, Result};
 use glam::DVec3;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// More triangles than this are refused: at about 300 bytes each they would fill a small machine.
 const MAX_TRIANGLES: f64 = 4e6;
@@ -19,14 +19,12 @@ impl PolygonMesh {
     /// [`Error::Surface`] where there is no face, or the sampling is far too fine for the mesh.
     pub fn surface(&self, sampling: &Sampling) -> Result<Surface> {
         let mut points = self.points.clone();
-        let mut triangles: Vec<[u32; 3]> = Vec::new();
-        for face in &self.faces {
-            split(&self.points, face, &mut triangles);
-        }
+        let mut triangles = self.split(&mut points);
+        cap::flatten(&points, &mut triangles);
         if triangles.is_empty() {
             return Err(Error::Surface(format!("{}: the mesh has no faces", self.name)));
         }
-        self.check_size(&triangles, sampling.max_edge)?;
+        self.check_size(&points, &triangles, sampling.max_edge)?;
         while let Some(finer) = halve(&mut points, &triangles, sampling.max_edge) {
             triangles = finer;
         }
@@ -44,14 +42,42 @@ impl PolygonMesh {
         })
     }
 
+    /// All faces in triangles. A face whose diagonal would double an edge of the mesh is split from its
+    /// middle instead: between two vertices there is one edge only.
+    fn split(&self, points: &mut Vec<DVec3>) -> Vec<[u32; 3]> {
+        let mut edges: HashSet<(u32, u32)> = HashSet::new();
+        for face in &self.faces {
+            edges.extend((0..face.len()).map(|k| sorted(face[k], face[(k + 1) % face.len()])));
+        }
+        let mut triangles = Vec::new();
+        for face in &self.faces {
+            let from = triangles.len();
+            split(&self.points, face, &mut triangles);
+            let diagonals = diagonals(face, &triangles[from..]);
+            if diagonals.iter().any(|d| edges.contains(d)) {
+                triangles.truncate(from);
+                points.push(
+                    face.iter().map(|&v| self.points[v as usize]).sum::<DVec3>()
+                        / face.len() as f64,
+                );
+                let middle = points.len() as u32 - 1;
+                triangles
+                    .extend((0..face.len()).map(|k| [face[k], face[(k + 1) % face.len()], middle]));
+            } else {
+                edges.extend(diagonals);
+            }
+        }
+        triangles
+    }
+
     /// Halving goes on by powers of two, so a triangle yields about as many as its edges hold `max_edge`,
     /// squared.
-    fn check_size(&self, triangles: &[[u32; 3]], max_edge: f64) -> Result<()> {
+    fn check_size(&self, points: &[DVec3], triangles: &[[u32; 3]], max_edge: f64) -> Result<()> {
         let expected: f64 = triangles
             .iter()
             .map(|t| {
-                let long = lengths(&self.points, t).into_iter().fold(0.0, f64::max) / max_edge;
-                let wide = 2.0 * area(&self.points, t) / (max_edge * max_edge);
+                let long = lengths(points, t).into_iter().fold(0.0, f64::max) / max_edge;
+                let wide = 2.0 * area(points, t) / (max_edge * max_edge);
                 1.0 + long + 2.0 * wide
             })
             .sum();
@@ -64,6 +90,22 @@ impl PolygonMesh {
             self.name
         )))
     }
+}
+
+fn sorted(a: u32, b: u32) -> (u32, u32) {
+    (a.min(b), a.max(b))
+}
+
+/// Edges of the triangles that are not edges of the face they make up.
+fn diagonals(face: &[u32], triangles: &[[u32; 3]]) -> Vec<(u32, u32)> {
+    if face.len() == 3 {
+        return Vec::new();
+    }
+    let mut edges: Vec<(u32, u32)> =
+        triangles.iter().flat_map(|t| [0, 1, 2].map(|k| sorted(t[k], t[(k + 1) % 3]))).collect();
+    edges.sort_unstable();
+    // A diagonal has a triangle on both sides.
+    edges.chunk_by(|a, b| a == b).filter(|same| same.len() > 1).map(|same| same[0]).collect()
 }
 
 fn area(points: &[DVec3], t: &[u32; 3]) -> f64 {
@@ -85,7 +127,7 @@ fn halve(points: &mut Vec<DVec3>, triangles: &[[u32; 3]], max_edge: f64) -> Opti
         let length = lengths(points, t);
         let mut middle = [None; 3];
         for k in 0..3 {
-            let (a, b) = (t[k].min(t[(k + 1) % 3]), t[k].max(t[(k + 1) % 3]));
+            let (a, b) = sorted(t[k], t[(k + 1) % 3]);
             // The length of an edge is the same, bit for bit, seen from both sides.
             if length[k] <= max_edge {
                 continue;
@@ -160,9 +202,8 @@ mod tests {
         }
         assert!(uses.values().all(|&n| n == 1));
         let edges = uses.keys().filter(|&&(a, b)| a < b || !uses.contains_key(&(b, a))).count();
-        let euler =
-            fine.carrier.points.len() as i64 - edges as i64 + fine.carrier.triangles.len() as i64;
-        assert_eq!(euler, 1);
+        // Euler: V + F = E + 1 on a disc.
+        assert_eq!(fine.carrier.points.len() + fine.carrier.triangles.len(), edges + 1);
     }
 
     #[test]

@@ -26,7 +26,7 @@ fn locate(shape: &Shape, p: DVec3) -> DVec2 {
     let raster = (0..33 * 33).map(|i| DVec2::new(at(0, i / 33), at(1, i % 33)));
     let mut uv = raster
         .min_by(|a, b| shape.point(*a).distance(p).total_cmp(&shape.point(*b).distance(p)))
-        .unwrap();
+        .expect("a raster");
     for _ in 0..50 {
         let j = shape.jet(uv);
         let d = p - j.point;
@@ -123,9 +123,12 @@ fn outsides_point_up_and_closed_ones_outwards() {
 
 /// Vertices less edges plus triangles of the carrier.
 fn euler_characteristic(surface: &Surface) -> i64 {
-    let triangles = surface.carrier.triangles.len() as i64;
+    let count = |n: usize| i64::try_from(n).expect("a count");
+    let triangles = surface.carrier.triangles.len();
     let rim: usize = surface.loops.iter().map(|l| l.segments.len()).sum();
-    surface.carrier.points.len() as i64 - (3 * triangles + rim as i64) / 2 + triangles
+    // Every edge has two sides, those on a loop one.
+    let sides = 3 * triangles + rim;
+    count(surface.carrier.points.len()) - count(sides / 2) + count(triangles)
 }
 
 #[test]
@@ -191,8 +194,8 @@ fn roof_and_facade_have_the_size_they_say() {
         let points = &surface.carrier.points;
         let (low, high) =
             points.iter().fold((points[0], points[0]), |(l, h), &p| (l.min(p), h.max(p)));
-        for k in 0..3 {
-            assert!(((high - low)[k] / size[k] - 1.0).abs() < 0.02, "{name}: {}", high - low);
+        for (k, wanted) in size.into_iter().enumerate() {
+            assert!(((high - low)[k] / wanted - 1.0).abs() < 0.02, "{name}: {}", high - low);
         }
     }
 }
