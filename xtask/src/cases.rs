@@ -85,7 +85,7 @@ fn row(case: &Case, document: &Value, seconds: f64) -> String {
         at(&q["mu_floor"]),
         at(&q["delta_deg"]),
         at(&q["delta_floor_deg"]),
-        at(&q["fluency"]),
+        q["fluency"].as_f64().unwrap_or(f64::INFINITY),
         at(&q["irregular"]["interior"]),
         at(&q["irregular"]["boundary"]),
         at(&q["border"]["edge_length_cv"]),
