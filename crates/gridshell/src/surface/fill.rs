@@ -108,7 +108,7 @@ struct Sizes {
     origin: DVec2,
     step: DVec2,
     count: [usize; 2],
-    sizes: Vec<f64>,
+    spacing: Vec<f64>,
 }
 
 impl Sizes {
@@ -150,8 +150,8 @@ impl Sizes {
                 see(k, k + count[1]);
             }
         }
-        let sizes = bends.iter().map(|&b| piece_length(sampling, b)).collect();
-        Sizes { origin: lo, step, count, sizes }
+        let spacing = bends.iter().map(|&b| piece_length(sampling, b)).collect();
+        Sizes { origin: lo, step, count, spacing }
     }
 
     /// The smallest spacing at the corners of the probes' cell that holds `uv`.
@@ -160,7 +160,7 @@ impl Sizes {
             let c = (uv[k] - self.origin[k]) / self.step[k];
             (c.max(0.0) as usize).min(self.count[k] - 2)
         });
-        let at = |i: usize, j: usize| self.sizes[(cell[0] + i) * self.count[1] + cell[1] + j];
+        let at = |i: usize, j: usize| self.spacing[(cell[0] + i) * self.count[1] + cell[1] + j];
         at(0, 0).min(at(0, 1)).min(at(1, 0)).min(at(1, 1))
     }
 }

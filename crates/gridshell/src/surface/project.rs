@@ -44,7 +44,7 @@ impl Shape {
             c = c.max(1e-18 * a / (aspect * aspect));
             let (da, dc) = (a * (1.0 + damping), c * (1.0 + damping));
             let det = da * dc - b * b;
-            if !(det > 0.0) {
+            if det.is_nan() || det <= 0.0 {
                 break;
             }
             let mut step =
@@ -157,5 +157,86 @@ impl Seeds {
             }
         }
         best.expect("a patch has seeds")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::nurbs::{NurbsCurve, NurbsSurface};
+    use super::*;
+    use std::f64::consts::FRAC_1_SQRT_2 as HALF;
+
+    /// An eighth of the unit sphere; its pole is the whole side v = 1.
+    fn octant() -> Shape {
+        let arc = [(1.0, 0.0, 1.0), (1.0, 1.0, HALF), (0.0, 1.0, 1.0)];
+        let (mut points, mut weights) = (Vec::new(), Vec::new());
+        for (x, y, wu) in arc {
+            for (rho, z, wv) in arc {
+                points.push(DVec3::new(x * rho, y * rho, z));
+                weights.push(wu * wv);
+            }
+        }
+        let knots = || vec![0., 0., 0., 1., 1., 1.];
+        Shape::Nurbs(
+            NurbsSurface::new([2, 2], [knots(), knots()], [3, 3], points, weights).unwrap(),
+        )
+    }
+
+    #[test]
+    fn foot_on_a_sphere_lies_on_the_ray_from_its_centre() {
+        let shape = octant();
+        let start = DVec2::new(0.4, 0.4);
+        for target in [(2.0, 1.0, 0.5), (0.3, 0.2, 0.4), (0.1, 0.1, 5.0), (1e-4, 2e-4, 1.0)] {
+            let target = DVec3::from(target);
+            let (uv, foot) = shape.project(start, target);
+            assert!(foot.distance(target.normalize()) < 1e-7, "{target} {foot}");
+            assert!(shape.point(uv).distance(foot) == 0.0);
+        }
+    }
+
+    #[test]
+    fn foot_stays_inside_the_domain() {
+        let shape = octant();
+        let (uv, foot) = shape.project(DVec2::new(0.9, 0.1), DVec3::new(2.0, -1.0, -3.0));
+        assert!(uv.length() < 1e-12, "{uv}");
+        assert!(foot.distance(DVec3::X) < 1e-12);
+    }
+
+    #[test]
+    fn projection_from_the_pole_gets_away_and_back() {
+        let shape = octant();
+        let (_, foot) = shape.project(DVec2::new(0.5, 1.0), DVec3::new(1.0, 1.0, 1.0));
+        assert!(foot.distance(DVec3::splat(1.0 / 3.0_f64.sqrt())) < 1e-7, "{foot}");
+        let (_, foot) = shape.project(DVec2::new(0.2, 0.5), DVec3::Z * 1.5);
+        assert!(foot.distance(DVec3::Z) < 1e-7, "{foot}");
+    }
+
+    #[test]
+    fn seeds_find_the_right_sheet() {
+        // A U of two sheets 0.2 apart.
+        let line = [(0., 0.), (3., 0.), (3.4, 0.1), (3., 0.2), (0., 0.2)];
+        let points = line.iter().flat_map(|&(x, z)| [DVec3::new(x, 0., z), DVec3::new(x, 1., z)]);
+        let knots = [vec![0., 0., 0., 1., 2., 3., 3., 3.], vec![0., 0., 1., 1.]];
+        let sheet = NurbsSurface::new([2, 1], knots, [5, 2], points.collect(), vec![]).unwrap();
+        let shape = Shape::Nurbs(sheet);
+        let seeds = Seeds::new(&shape);
+        for u in [0.2, 2.8] {
+            let target = shape.point(DVec2::new(u, 0.45));
+            assert!(seeds.project(&shape, target).1.distance(target) < 1e-12);
+        }
+    }
+
+    #[test]
+    fn foot_on_a_curve_keeps_to_its_piece() {
+        let points = vec![DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
+        let arc =
+            NurbsCurve::new(2, vec![0., 0., 0., 1., 1., 1.], points, vec![1.0, HALF, 1.0]).unwrap();
+        let curve = Curve::Nurbs(arc);
+        let target = DVec3::new(0.9, 1.2, 0.3);
+        let (t, foot) = curve.project(0.1, [0.0, 1.0], target);
+        let there = DVec3::new(0.9, 1.2, 0.0).normalize();
+        assert!(foot.distance(there) < 1e-7 && curve.point(t) == foot);
+        let (t, _) = curve.project(0.1, [0.0, 0.3], target);
+        assert_eq!(t, 0.3);
     }
 }

@@ -87,16 +87,16 @@ fn bound(brep: &mut Brep, i: usize) -> Result<()> {
         if poles.iter().any(|p| p.fixed == fixed && p.upper == upper) {
             continue;
         }
-        sides[k] = Some(match (closed[fixed], k.checked_sub(2).and_then(|j| sides[j])) {
-            // The side across is the same edge, run the other way.
-            (true, Some(across)) => Coedge { edge: across.edge, reversed: true },
-            _ => {
-                let ends = [corners[k], corners[(k + 1) % 4]];
-                let curve = Curve::UvLine { shape: shape.clone(), ends };
-                let ends = [vertices[k], vertices[(k + 1) % 4]];
-                brep.edges.push(BrepEdge { curve, range: [0.0, 1.0], ends });
-                Coedge { edge: brep.edges.len() as u32 - 1, reversed: false }
-            }
+        // On a closed patch the side across is the same edge, run the other way.
+        let across = k.checked_sub(2).and_then(|j| sides[j]).filter(|_| closed[fixed]);
+        sides[k] = Some(if let Some(across) = across {
+            Coedge { edge: across.edge, reversed: true }
+        } else {
+            let ends = [corners[k], corners[(k + 1) % 4]];
+            let curve = Curve::UvLine { shape: shape.clone(), ends };
+            let ends = [vertices[k], vertices[(k + 1) % 4]];
+            brep.edges.push(BrepEdge { curve, range: [0.0, 1.0], ends });
+            Coedge { edge: brep.edges.len() as u32 - 1, reversed: false }
         });
     }
     let mut coedges: Vec<Coedge> = sides.into_iter().flatten().collect();

@@ -115,10 +115,10 @@ impl Shape {
             lo.distance(hi)
         };
         let mut poles = Vec::new();
-        for fixed in 0..2 {
+        for (fixed, ends) in domain.iter().enumerate() {
             let along = self.lattice(1 - fixed);
             for upper in [false, true] {
-                let value = domain[fixed][usize::from(upper)];
+                let value = ends[usize::from(upper)];
                 let at = |t: f64| {
                     let uv = if fixed == 0 { [value, t] } else { [t, value] };
                     self.point(DVec2::from(uv))

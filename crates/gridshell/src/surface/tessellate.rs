@@ -117,7 +117,7 @@ fn check(brep: &Brep, sampling: &Sampling) -> Result<()> {
     }
     for (i, e) in brep.edges.iter().enumerate() {
         let known = e.ends.iter().all(|&v| (v as usize) < brep.vertices.len());
-        if !known || !(e.range[0] < e.range[1]) || !e.range.iter().all(|t| t.is_finite()) {
+        if !known || e.range[0] >= e.range[1] || !e.range.iter().all(|t| t.is_finite()) {
             return Err(Error::Surface(format!("edge {} has no proper ends or range", i + 1)));
         }
     }
@@ -240,10 +240,8 @@ fn compact(points: &mut Vec<DVec3>, triangles: &mut [[u32; 3]]) -> Vec<u32> {
     for &v in triangles.iter().flatten() {
         kept[v as usize] = 0;
     }
-    let mut next = 0;
-    for k in kept.iter_mut().filter(|k| **k == 0) {
-        *k = next;
-        next += 1;
+    for (next, k) in kept.iter_mut().filter(|k| **k == 0).enumerate() {
+        *k = next as u32;
     }
     let mut i = 0;
     points.retain(|_| {

@@ -125,7 +125,7 @@ impl<'a> Tracer<'a> {
                 for n in &mut path.nodes {
                     n.uv += shift;
                 }
-                self.join(&mut traced.nodes, &path.nodes[0]);
+                self.join(&mut traced.nodes, &path.nodes[0])?;
             }
             traced.nodes.extend(path.nodes);
         }
@@ -135,7 +135,7 @@ impl<'a> Tracer<'a> {
         let shift = self.shift(&last, &first);
         if first.free.is_some() {
             let again = Node { uv: first.uv + shift, ..first };
-            self.join(&mut traced.nodes, &again);
+            self.join(&mut traced.nodes, &again)?;
             // The side of the pole has brought us round; only the place itself must be the same.
             let gap = again.uv - first.uv;
             if gap.abs().max_element() > 0.0 {
@@ -143,7 +143,8 @@ impl<'a> Tracer<'a> {
             }
         } else {
             traced.winding = shift;
-            traced.nodes.pop();
+            let again = Node { uv: first.uv + shift, ..first };
+            self.join(&mut traced.nodes, &again)?;
         }
         Ok(traced)
     }
@@ -183,20 +184,32 @@ impl<'a> Tracer<'a> {
 
     /// Prepare `nodes` for a path that begins at `start`: drop the node they share, or follow the side of
     /// the pole.
-    fn join(&self, nodes: &mut Vec<Node>, start: &Node) {
+    fn join(&self, nodes: &mut Vec<Node>, start: &Node) -> Result<(), String> {
         let end = nodes[nodes.len() - 1];
+        if end.vertex != start.vertex {
+            let gap = end.xyz.distance(start.xyz);
+            if gap <= self.sampling.chord_error {
+                return Ok(());
+            }
+            let p = end.xyz;
+            return Err(format!(
+                "its loop has a gap of {gap:.4} m at ({:.4}, {:.4}, {:.4})",
+                p.x, p.y, p.z
+            ));
+        }
         let gap = start.uv - end.uv;
         if start.free.is_none()
             || gap.abs().max_element() <= 1e-9 * (1.0 + start.uv.abs().max_element())
         {
             nodes.pop();
-            return;
+            return Ok(());
         }
         // Enough nodes that triangles near the pole see its side pass by.
         let pieces = 16;
         for i in 1..pieces {
             nodes.push(Node { uv: end.uv + gap * (f64::from(i) / f64::from(pieces)), ..end });
         }
+        Ok(())
     }
 
     /// Project one coedge.
