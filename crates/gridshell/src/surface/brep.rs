@@ -5,7 +5,7 @@ use super::shape::Shape;
 use glam::DVec3;
 
 /// A boundary representation in metres: what the CAD readers and the built-in surfaces make, and what
-/// [`tessellate`](super::tessellate) turns into a [`Surface`](super::Surface).
+/// [`tessellate`](fn@super::tessellate) turns into a [`Surface`](super::Surface).
 #[derive(Clone, Debug, Default)]
 pub struct Brep {
     /// Built-in name or file stem.
