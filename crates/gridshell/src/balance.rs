@@ -26,6 +26,8 @@ pub struct Options {
     pub settled: f64,
     /// Most Gauss-Newton steps.
     pub max_steps: usize,
+    /// Residual at which the linear system of a step counts as solved, relative to its first one.
+    pub accuracy: f64,
 }
 
 /// What balancing did.
@@ -42,12 +44,12 @@ pub struct Report {
 /// Move the nodes to the nearest balance of lengths and lines. Positions end on the carrier.
 pub fn balance(surface: &Surface, grid: &mut Grid, options: &Options, job: &Job) -> Report {
     let mut report = Report::default();
-    let mut system = System::new(grid, options.straightness);
+    let mut system = System::new(surface, grid, options);
     let mut energy = f64::INFINITY;
     while report.steps < options.max_steps && !job.stopped() {
         let step = system.step(surface, grid);
         if energy.is_infinite() {
-            energy = system.energy(grid);
+            energy = system.energy(surface, grid);
         }
         let longest = step.iter().map(|d| d.length()).fold(0.0, f64::max);
         let mut scale = (REACH * system.mean / longest).min(1.0);
@@ -59,7 +61,7 @@ pub fn balance(surface: &Surface, grid: &mut Grid, options: &Options, job: &Job)
                 let moved = grid.slide(surface, i, *d * scale);
                 report.last_move = report.last_move.max(moved / system.mean);
             }
-            let after = system.energy(grid);
+            let after = system.energy(surface, grid);
             if after <= energy || report.last_move < options.settled {
                 energy = after;
                 break;
@@ -92,6 +94,9 @@ struct System {
     freedom: Vec<Freedom>,
     /// Diagonal of the matrix, one number a node.
     diagonal: Vec<f64>,
+    accuracy: f64,
+    /// Whether the surface bends so sharply that lengths are to follow it.
+    bends: bool,
 }
 
 #[derive(Clone, Copy)]
@@ -112,13 +117,16 @@ impl Freedom {
 }
 
 impl System {
-    fn new(grid: &Grid, straightness: f64) -> System {
+    fn new(surface: &Surface, grid: &Grid, options: &Options) -> System {
+        let straightness = options.straightness;
         let mesh = &grid.mesh;
         let edges: Vec<(u32, u32)> = mesh.edges().collect();
         let regular = mesh.vertices().filter(|&v| !mesh.is_boundary(v) && mesh.degree(v) == 6);
         let lines: Vec<Line> = regular
             .flat_map(|v| (0..3).map(move |j| [v, mesh.ring(v)[j], mesh.ring(v)[j + 3]]))
             .collect();
+        let mean_length =
+            edges.iter().map(|&(a, b)| grid.length(a, b)).sum::<f64>() / edges.len() as f64;
         let mut diagonal = vec![DAMPING; mesh.slots()];
         for &(a, b) in &edges {
             diagonal[a as usize] += 0.5;
@@ -137,15 +145,29 @@ impl System {
             directions: Vec::new(),
             freedom: Vec::new(),
             diagonal,
+            accuracy: options.accuracy,
+            bends: surface.bends_within(mean_length),
         }
+    }
+
+    /// Lengths of the edges: chords, or where the surface bends sharply the arcs above them.
+    fn lengths(&self, surface: &Surface, grid: &Grid) -> Vec<f64> {
+        if !self.bends {
+            return self.edges.iter().map(|&(a, b)| grid.length(a, b)).collect();
+        }
+        let normals: Vec<DVec3> = grid.places.iter().map(|p| p.normal(surface)).collect();
+        let arc = |&(a, b): &(u32, u32)| {
+            grid.length(a, b) * arc_over_chord(normals[a as usize], normals[b as usize])
+        };
+        self.edges.iter().map(arc).collect()
     }
 
     /// What is minimised, up to the curvature of the surface: the spread of lengths and the bends in the
     /// tangent planes of the last linearisation.
-    fn energy(&self, grid: &Grid) -> f64 {
-        let lengths = || self.edges.iter().map(|&(a, b)| grid.length(a, b));
-        let mean = lengths().sum::<f64>() / self.edges.len() as f64;
-        let spread: f64 = lengths().map(|l| (l - mean) * (l - mean)).sum();
+    fn energy(&self, surface: &Surface, grid: &Grid) -> f64 {
+        let lengths = self.lengths(surface, grid);
+        let mean = lengths.iter().sum::<f64>() / self.edges.len() as f64;
+        let spread: f64 = lengths.iter().map(|l| (l - mean) * (l - mean)).sum();
         let bends: f64 = self
             .lines
             .iter()
@@ -160,13 +182,12 @@ impl System {
 
     /// Linearise at the grid's positions and solve for the move of every node.
     fn step(&mut self, surface: &Surface, grid: &Grid) -> Vec<DVec3> {
-        let lengths: Vec<f64> = self.edges.iter().map(|&(a, b)| grid.length(a, b)).collect();
+        let lengths = self.lengths(surface, grid);
         self.mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
         self.directions = self
             .edges
             .iter()
-            .zip(&lengths)
-            .map(|(&(a, b), &l)| (grid.xyz[b as usize] - grid.xyz[a as usize]) / l)
+            .map(|&(a, b)| (grid.xyz[b as usize] - grid.xyz[a as usize]).normalize_or_zero())
             .collect();
         self.freedom = (0..grid.xyz.len()).map(|i| freedom(surface, grid, i)).collect();
         let mut gradient = vec![DVec3::ZERO; grid.xyz.len()];
@@ -222,7 +243,7 @@ impl System {
         let mut z = precondition(&r);
         let mut p = z.clone();
         let mut rz = dot(&r, &z);
-        let enough = rz * 1e-6;
+        let enough = rz * self.accuracy * self.accuracy;
         for _ in 0..200 {
             if rz <= enough {
                 break;
@@ -243,6 +264,14 @@ impl System {
         }
         x
     }
+}
+
+/// Length of an arc over its chord when the surface normal turns from `m` to `n` along it: the circle's
+/// x / sin x at half the angle, as a series in sin x. Without it, members would rather leap across a fold than
+/// follow a bend tighter than they are long.
+pub fn arc_over_chord(m: DVec3, n: DVec3) -> f64 {
+    let s = 0.5 * (1.0 - m.dot(n));
+    1.0 + s * (1.0 / 6.0 + 0.404 * s * s)
 }
 
 fn freedom(surface: &Surface, grid: &Grid, i: usize) -> Freedom {

@@ -173,6 +173,11 @@ impl Place {
         }
     }
 
+    /// Unit normal of the carrier here.
+    pub fn normal(&self, surface: &Surface) -> DVec3 {
+        surface.carrier.normal(&self.surface_point(surface))
+    }
+
     /// The exact position on the design surface.
     pub fn exact(&self, surface: &Surface) -> DVec3 {
         match self {

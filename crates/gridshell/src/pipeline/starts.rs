@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::grid::Grid;
 use crate::job::Job;
 use crate::recipe::{self, Recipe};
-use crate::stages::measure::measure;
+use crate::stages::measure::compare;
 use crate::stages::{pack, triangulate};
 use crate::surface::{Surface, chart::Chart};
 use pack::lattice::Lattice;
@@ -88,6 +88,7 @@ fn lattices(
         straightness: recipe.relax.straightness,
         settled: 1e-3,
         max_steps: TRIAL_STEPS,
+        accuracy: 0.1,
     };
     let judged: Vec<Option<(f64, Start)>> = (0..draws as u64)
         .into_par_iter()
@@ -105,7 +106,7 @@ fn lattices(
             let bubbles = lattice.bubbles(surface, chart, length);
             let mut grid = connect(surface, chart, &bubbles)?;
             balance(surface, &mut grid, &trial, &Job::default());
-            let points = score(&measure(&grid, surface, length, &recipe.measure));
+            let points = score(&compare(&grid, surface, length, &recipe.measure));
             Ok(Some((points, Start { bubbles, seed, report: None })))
         })
         .collect::<Result<_>>()?;

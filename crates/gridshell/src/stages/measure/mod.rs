@@ -30,6 +30,26 @@ pub fn measure(
     edge_length: f64,
     options: &recipe::Measure,
 ) -> Quality {
+    let off = |distance: &dyn Fn(&Place, DVec3) -> f64| {
+        let places = grid.places.iter().zip(&grid.xyz);
+        places.map(|(p, x)| distance(p, *x)).fold(0.0, f64::max) / edge_length
+    };
+    Quality {
+        surface_deviation: off(&|place, xyz| place.off_surface(surface, xyz)),
+        boundary_deviation: off(&|place, xyz| place.off_boundary(surface, xyz)),
+        bridging_members: bridging::count(grid, surface, edge_length),
+        ..compare(grid, surface, edge_length, options)
+    }
+}
+
+/// As [`measure`], without what needs walks and projections on the surface: the two deviations and the
+/// bridging members are left at zero. For comparing many candidates.
+pub fn compare(
+    grid: &Grid,
+    surface: &Surface,
+    edge_length: f64,
+    options: &recipe::Measure,
+) -> Quality {
     let normals: Vec<_> =
         grid.places.iter().map(|p| surface.carrier.normal(&p.surface_point(surface))).collect();
     let lambda = options.lambda;
@@ -40,10 +60,6 @@ pub fn measure(
     let mu = (nodes.residual / nodes.weighted).sqrt();
     let rho = lambda * nodes.interior_regular as f64 / nodes.weighted;
     let disorder = mu + rho * delta / 60.0;
-    let off = |distance: &dyn Fn(&Place, DVec3) -> f64| {
-        let places = grid.places.iter().zip(&grid.xyz);
-        places.map(|(p, x)| distance(p, *x)).fold(0.0, f64::max) / edge_length
-    };
     Quality {
         nodes: nodes.interior + nodes.boundary,
         members: members.count,
@@ -64,10 +80,10 @@ pub fn measure(
         rho,
         fluency: (disorder > PERFECT).then(|| 1.0 / disorder),
         area_ratio: panels.area / surface.area,
-        surface_deviation: off(&|place, xyz| place.off_surface(surface, xyz)),
-        boundary_deviation: off(&|place, xyz| place.off_boundary(surface, xyz)),
+        surface_deviation: 0.0,
+        boundary_deviation: 0.0,
         min_angle_deg: panels.min_angle.to_degrees(),
-        bridging_members: bridging::count(grid, surface, edge_length),
+        bridging_members: 0,
         folded_panels: panels.folded,
         border: Border { shape_mean: panels.border_shape_mean, edge_length_cv: members.border_cv },
     }

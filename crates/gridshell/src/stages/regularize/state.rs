@@ -1,6 +1,7 @@
 //! A grid under edge operations: connectivity, positions and adjusted degrees change together, and a run of
 //! changes can be taken back.
 
+use crate::balance::arc_over_chord;
 use crate::degree::{boundary_angle, virtual_degree};
 use crate::grid::{Grid, Place};
 use crate::mesh::{Refusal, Undo};
@@ -20,6 +21,8 @@ pub struct State<'a> {
     pub length: f64,
     /// Weight of interior vertices, Eq. 13.
     pub lambda: f64,
+    /// Whether the surface bends so sharply that lengths are to follow it.
+    bends: bool,
     /// Adjusted degree minus six of each vertex (0 for removed ones).
     pub deviation: Vec<i32>,
     /// Irregular vertices in use, in no meaning order, and where each stands in that list.
@@ -42,6 +45,7 @@ impl<'a> State<'a> {
             grid,
             length,
             lambda,
+            bends: surface.bends_within(length),
             deviation: vec![0; n],
             irregular: Vec::new(),
             listed: vec![UNLISTED; n],
@@ -208,10 +212,9 @@ impl<'a> State<'a> {
     pub fn length_energy(&self, region: &[u32]) -> f64 {
         let mut sum = 0.0;
         for &v in region {
-            let at = self.grid.xyz[v as usize];
             for &w in self.grid.mesh.ring(v) {
                 if w > v || self.mark[w as usize] != self.stamp {
-                    let strain = at.distance(self.grid.xyz[w as usize]) / self.length - 1.0;
+                    let strain = self.member(v, w).1 / self.length - 1.0;
                     sum += strain * strain;
                 }
             }
@@ -219,20 +222,30 @@ impl<'a> State<'a> {
         sum
     }
 
+    /// The chord from `v` to `w`, and its length (where the surface bends sharply: of the arc above it).
+    fn member(&self, v: u32, w: u32) -> (DVec3, f64) {
+        let chord = self.grid.xyz[w as usize] - self.grid.xyz[v as usize];
+        if !self.bends {
+            return (chord, chord.length());
+        }
+        let normal = |v: u32| self.grid.places[v as usize].normal(self.surface);
+        (chord, chord.length() * arc_over_chord(normal(v), normal(w)))
+    }
+
     /// Sweep over the vertices, moving each to where its members are nearest to the wanted length.
     pub fn relax(&mut self, region: &[u32], sweeps: usize) {
         for &v in region {
             self.moved.push((v, self.grid.places[v as usize], self.grid.xyz[v as usize]));
         }
+        let least = 1e-9 * self.length;
         for _ in 0..sweeps {
             for &v in region {
-                let at = self.grid.xyz[v as usize];
                 let ring = self.grid.mesh.ring(v);
                 let pull: DVec3 = ring
                     .iter()
                     .map(|&w| {
-                        let d = self.grid.xyz[w as usize] - at;
-                        d * (1.0 - self.length / d.length().max(1e-9 * self.length))
+                        let (chord, length) = self.member(v, w);
+                        chord * ((length - self.length) / chord.length().max(least))
                     })
                     .sum();
                 // The members of a regular node resist a move with half their number in either direction.

@@ -25,6 +25,7 @@ pub fn relax(surface: &Surface, grid: &mut Grid, options: &Relax, job: &Job) -> 
                 straightness: options.straightness,
                 settled: options.settled,
                 max_steps,
+                accuracy: 1e-3,
             };
             balance(surface, grid, &options, job)
         }
