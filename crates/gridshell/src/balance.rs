@@ -122,11 +122,13 @@ impl System {
         let mesh = &grid.mesh;
         let edges: Vec<(u32, u32)> = mesh.edges().collect();
         let regular = mesh.vertices().filter(|&v| !mesh.is_boundary(v) && mesh.degree(v) == 6);
-        let lines: Vec<Line> = regular
+        let mut lines: Vec<Line> = regular
             .flat_map(|v| (0..3).map(move |j| [v, mesh.ring(v)[j], mesh.ring(v)[j + 3]]))
             .collect();
-        let mean_length =
-            edges.iter().map(|&(a, b)| grid.length(a, b)).sum::<f64>() / edges.len() as f64;
+        let sharp = grid.sharp_members(surface);
+        let is_sharp = |a: u32, b: u32| sharp.binary_search(&(a.min(b), a.max(b))).is_ok();
+        // Lines run on past a sharp bend without being held straight there.
+        lines.retain(|&[i, j, k]| !is_sharp(i, j) && !is_sharp(i, k));
         let mut diagonal = vec![DAMPING; mesh.slots()];
         for &(a, b) in &edges {
             diagonal[a as usize] += 0.5;
@@ -146,7 +148,7 @@ impl System {
             freedom: Vec::new(),
             diagonal,
             accuracy: options.accuracy,
-            bends: surface.bends_within(mean_length),
+            bends: !sharp.is_empty(),
         }
     }
 

@@ -33,6 +33,15 @@ impl Grid {
         self.xyz[a as usize].distance(self.xyz[b as usize])
     }
 
+    /// The members along which the surface turns by more than about seventy degrees: there chords say little
+    /// of lengths along the surface, nor tangent planes of straight lines.
+    pub fn sharp_members(&self, surface: &Surface) -> Vec<(u32, u32)> {
+        const SHARP: f64 = 0.35;
+        let normals: Vec<DVec3> = self.places.iter().map(|p| p.normal(surface)).collect();
+        let sharp = |&(a, b): &(u32, u32)| normals[a as usize].dot(normals[b as usize]) < SHARP;
+        self.mesh.edges().filter(sharp).collect()
+    }
+
     /// All positions, x y z of one node after the other.
     pub fn flat_xyz(&self) -> Vec<f64> {
         self.xyz.iter().flat_map(DVec3::to_array).collect()

@@ -147,7 +147,7 @@ impl Default for Pack {
             k_c: 100.0,
             k_f: 1.0,
             xi: 0.7,
-            settled: 1e-4,
+            settled: 1e-3,
             max_steps: 5000,
             draws: 96,
         }
@@ -198,6 +198,7 @@ impl Recipe {
             "default" => {}
             "paper" => {
                 recipe.pack.start = Start::Random;
+                recipe.pack.settled = 1e-4;
                 recipe.regularize.method = RegularizeMethod::Paper;
                 recipe.relax.method = RelaxMethod::Net;
             }

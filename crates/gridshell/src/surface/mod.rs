@@ -59,19 +59,6 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// Whether the surface turns by more than about a right angle within `length` metres somewhere.
-    pub fn bends_within(&self, length: f64) -> bool {
-        const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
-        let carrier = &self.carrier;
-        carrier.triangles.iter().flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]).any(
-            |(a, b)| {
-                let turn = carrier.normals[a as usize].distance(carrier.normals[b as usize]);
-                let along = carrier.points[a as usize].distance(carrier.points[b as usize]);
-                turn * length > RIGHT_ANGLE * along
-            },
-        )
-    }
-
     /// V - E + F of the carrier.
     pub fn euler_characteristic(&self) -> i64 {
         let faces = self.carrier.triangles.len();

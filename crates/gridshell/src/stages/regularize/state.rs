@@ -42,10 +42,10 @@ impl<'a> State<'a> {
         let n = grid.mesh.slots();
         let mut state = State {
             surface,
+            bends: !grid.sharp_members(surface).is_empty(),
             grid,
             length,
             lambda,
-            bends: surface.bends_within(length),
             deviation: vec![0; n],
             irregular: Vec::new(),
             listed: vec![UNLISTED; n],
