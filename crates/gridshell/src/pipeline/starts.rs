@@ -36,12 +36,11 @@ const TRIAL_STEPS: usize = 3;
 
 /// The starts that the recipe asks for; bubbles where a lattice is wanted but the surface has no chart.
 pub fn starts(surface: &Surface, length: f64, recipe: &Recipe, job: &Job) -> Result<Starts> {
-    if recipe.pack.start == recipe::Start::Lattice {
-        if let Some(chart) =
+    if recipe.pack.start == recipe::Start::Lattice
+        && let Some(chart) =
             Chart::flatten(&surface.carrier, &surface.loops, surface.euler_characteristic())
-        {
-            return lattices(surface, &chart, length, recipe, job);
-        }
+    {
+        return lattices(surface, &chart, length, recipe, job);
     }
     let note = match recipe.pack.start {
         recipe::Start::Lattice => {

@@ -63,7 +63,8 @@ impl Surface {
     pub fn euler_characteristic(&self) -> i64 {
         let faces = self.carrier.triangles.len();
         let open = self.carrier.neighbors.iter().flatten().filter(|&&n| n == carrier::NONE).count();
-        self.carrier.points.len() as i64 - ((3 * faces + open) / 2) as i64 + faces as i64
+        let edge_sides = 3 * faces + open;
+        self.carrier.points.len() as i64 - (edge_sides / 2) as i64 + faces as i64
     }
 
     /// The exact point of the design surface that the carrier point stands for: the patch evaluated at

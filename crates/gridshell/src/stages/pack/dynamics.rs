@@ -84,8 +84,8 @@ pub fn settle(
         report.last_move = moved.fold(0.0, f64::max) / edge_length;
         report.steps += 1;
         report.converged = report.last_move < options.settled;
-        if report.steps % 20 == 0 {
-            let flat: Vec<f64> = xyz.iter().flat_map(|p| p.to_array()).collect();
+        if report.steps.is_multiple_of(20) {
+            let flat: Vec<f64> = xyz.iter().flat_map(DVec3::to_array).collect();
             job.progress("pack", report.steps as f64 / options.max_steps as f64, &flat);
         }
     }

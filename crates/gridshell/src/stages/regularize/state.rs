@@ -89,9 +89,10 @@ impl<'a> State<'a> {
             return 0;
         }
         let degree = mesh.degree(v) as i32;
-        match mesh.is_boundary(v) {
-            true => degree + virtual_degree(boundary_angle(mesh, &self.grid.xyz, v)) - 6,
-            false => degree - 6,
+        if mesh.is_boundary(v) {
+            degree + virtual_degree(boundary_angle(mesh, &self.grid.xyz, v)) - 6
+        } else {
+            degree - 6
         }
     }
 

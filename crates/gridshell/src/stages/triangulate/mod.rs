@@ -121,6 +121,9 @@ fn least_share(corners: &[[f64; 3]; 3], p: [f64; 3]) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
+/// Least share of a carrier edge that is split off.
+const HAIR: f64 = 1e-6;
+
 /// Split the carrier's boundary edges at the boundary bubbles.
 fn insert_boundary(
     tri: &mut Intrinsic,
@@ -135,7 +138,6 @@ fn insert_boundary(
         let count = chain.vertices.len();
         let (start, end) = (chain.vertices[k], chain.vertices[(k + 1) % count]);
         let is_corner = |k: usize| chain.corners.binary_search(&(k as u32)).is_ok();
-        const HAIR: f64 = 1e-6;
         if fraction == 0.0 && is_corner(k) {
             nodes.push((start, Place::Corner(*point)));
             continue;
