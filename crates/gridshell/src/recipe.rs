@@ -78,6 +78,10 @@ pub struct Regularize {
     pub trials: usize,
     /// Grids searched side by side; the best is kept.
     pub candidates: usize,
+    /// Weight w of the residual R in the search's energy, sum of (l / l0 - 1)^2 + w R.
+    pub residual_weight: f64,
+    /// First and last temperature of the search, in units of that energy.
+    pub temperature: [f64; 2],
 }
 
 /// The methods of regularizing.
@@ -162,6 +166,8 @@ impl Default for Regularize {
             node_range: 0.1,
             trials: 4000,
             candidates: 8,
+            residual_weight: 0.6,
+            temperature: [0.1, 0.01],
         }
     }
 }

@@ -11,11 +11,6 @@ use crate::job::Job;
 use crate::math::trig::{exp, ln};
 use crate::recipe::Regularize;
 
-/// Weight w of the residual against the spread of lengths.
-const WEIGHT: f64 = 0.6;
-/// First and last temperature.
-const HOT: f64 = 0.25;
-const COLD: f64 = 0.01;
 /// Rounds of the schedule, each ended by sweeps over all nodes.
 const ROUNDS: usize = 4;
 /// Panels below this shape index are refused.
@@ -38,6 +33,7 @@ enum Operation {
 pub fn anneal(state: &mut State, options: &Regularize, seed: u64, job: &Job) -> Report {
     let mut report = Report::default();
     let trials = options.trials * state.irregular().len().max(1);
+    let [hot, cold] = options.temperature;
     let mut search = Search::new(state, options, seed);
     for round in 0..ROUNDS {
         for k in 0..trials / ROUNDS {
@@ -45,7 +41,7 @@ pub fn anneal(state: &mut State, options: &Regularize, seed: u64, job: &Job) -> 
                 return report;
             }
             let done = (round as f64 + k as f64 / (trials / ROUNDS) as f64) / ROUNDS as f64;
-            search.temperature = HOT * exp(ln(COLD / HOT) * done);
+            search.temperature = hot * exp(ln(cold / hot) * done);
             if k % 4096 == 0 {
                 job.progress("regularize", done, &[]);
             }
@@ -65,6 +61,8 @@ struct Search<'a, 'b> {
     state: &'a mut State<'b>,
     rng: fastrand::Rng,
     temperature: f64,
+    /// Weight w of R.
+    weight: f64,
     /// Nodes, those on the boundary by half: what the area decides. Now, and as wanted.
     count: f64,
     target: f64,
@@ -129,7 +127,15 @@ impl<'a, 'b> Search<'a, 'b> {
         let surface = state.surface;
         let panel = 3f64.sqrt() / 4.0 * state.length * state.length;
         let target = surface.area / (2.0 * panel) + surface.euler_characteristic() as f64;
-        Search { state, rng, temperature: HOT, count, target, range }
+        Search {
+            state,
+            rng,
+            temperature: options.temperature[0],
+            weight: options.residual_weight,
+            count,
+            target,
+            range,
+        }
     }
 
     /// Try one operation: keep it with the odds of the temperature.
@@ -167,11 +173,11 @@ impl<'a, 'b> Search<'a, 'b> {
             Operation::Collapse => self.range.contains(&(nodes - 1)),
             Operation::Split => self.range.contains(&(nodes + 1)),
         };
-        if WEIGHT * change + count_change > allowance + HOPE || !in_range {
+        if self.weight * change + count_change > allowance + HOPE || !in_range {
             return false;
         }
         let region = state.region(&[a, b], 2);
-        let before = state.length_energy(&region) + WEIGHT * weighted_residual(state, &region);
+        let before = state.length_energy(&region) + self.weight * weighted_residual(state, &region);
         let done = match operation {
             Operation::Flip => state.flip(a, b).map(|_| a),
             Operation::Collapse => state.collapse(a, b),
@@ -185,7 +191,7 @@ impl<'a, 'b> Search<'a, 'b> {
         state.refresh(&region);
         let touched = state.touched();
         state.refresh(&touched);
-        let after = state.length_energy(&region) + WEIGHT * weighted_residual(state, &region);
+        let after = state.length_energy(&region) + self.weight * weighted_residual(state, &region);
         count_change + after - before <= allowance && !state.has_bad_panel(&touched, LEAST_SHAPE)
     }
 }
