@@ -9,6 +9,7 @@ use super::Report;
 use super::state::State;
 use crate::job::Job;
 use crate::math::trig::{exp, ln};
+use crate::mesh::Refusal;
 use crate::recipe::Regularize;
 
 /// Rounds of the schedule, each ended by sweeps over all nodes.
@@ -23,10 +24,21 @@ const COUNT_WEIGHT: f64 = 30.0;
 
 /// An operation on the edge (a, b).
 #[derive(Clone, Copy)]
-enum Operation {
+pub enum Operation {
     Flip,
     Collapse,
     Split,
+}
+
+impl Operation {
+    /// Make it; gives a vertex in its middle.
+    pub fn apply(self, state: &mut State, a: u32, b: u32) -> Result<u32, Refusal> {
+        match self {
+            Operation::Flip => state.flip(a, b).map(|_| a),
+            Operation::Collapse => state.collapse(a, b),
+            Operation::Split => state.split(a, b),
+        }
+    }
 }
 
 /// Anneal `state`.
@@ -37,7 +49,11 @@ pub fn anneal(state: &mut State, options: &Regularize, seed: u64, job: &Job) -> 
     let mut search = Search::new(state, options, seed);
     for round in 0..ROUNDS {
         for k in 0..trials / ROUNDS {
-            if search.state.irregular().is_empty() || (k % 256 == 0 && job.stopped()) {
+            if search.state.irregular().is_empty() {
+                report.converged = true;
+                return report;
+            }
+            if k % 256 == 0 && job.stopped() {
                 return report;
             }
             let done = (round as f64 + k as f64 / (trials / ROUNDS) as f64) / ROUNDS as f64;
@@ -70,7 +86,7 @@ struct Search<'a, 'b> {
 }
 
 /// Pick an irregular vertex, an interior one three times in four, and an operation near it.
-fn draw(state: &State, rng: &mut fastrand::Rng) -> Option<(Operation, u32, u32)> {
+pub fn draw(state: &State, rng: &mut fastrand::Rng) -> Option<(Operation, u32, u32)> {
     let mesh = &state.grid.mesh;
     let irregular = state.irregular();
     let mut v = irregular[rng.usize(..irregular.len())];
@@ -178,12 +194,7 @@ impl<'a, 'b> Search<'a, 'b> {
         }
         let region = state.region(&[a, b], 2);
         let before = state.length_energy(&region) + self.weight * weighted_residual(state, &region);
-        let done = match operation {
-            Operation::Flip => state.flip(a, b).map(|_| a),
-            Operation::Collapse => state.collapse(a, b),
-            Operation::Split => state.split(a, b),
-        };
-        let Ok(center) = done else { return false };
+        let Ok(center) = operation.apply(state, a, b) else { return false };
         let mut seeds = region;
         seeds.push(center);
         let region = state.region(&seeds, 0);
