@@ -166,11 +166,11 @@ impl Default for Regularize {
             method: RegularizeMethod::Search,
             max_rounds: 200,
             node_range: 0.1,
-            trials: 3000,
-            candidates: 16,
+            trials: 4000,
+            candidates: 12,
             finalists: 4,
             residual_weight: 1.0,
-            temperature: [0.3, 0.01],
+            temperature: [0.2, 0.01],
         }
     }
 }
