@@ -81,7 +81,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         converged: settled.is_none_or(|r| r.converged),
         quality: Some(packed_quality.clone()),
         notes,
-        grid: None,
+        grid: Some(exact(grid.clone(), &surface)),
     });
     stages.push(StageReport {
         name: "triangulate",
