@@ -5,6 +5,7 @@
 //! Every choice is seeded by the recipe and the place in its list, so the grid is the same for any number of
 //! threads. A job that is stopped still ends with the best grid so far.
 
+mod narrow;
 mod score;
 mod starts;
 
@@ -72,7 +73,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
 
     let Start { report: settled, bubbles, .. } = &starts[best];
     let (grid, report) = &triangulated[best];
-    let warnings = warnings(&surface, bubbles.len(), report);
+    let mut warnings = warnings(&surface, bubbles.len(), report);
     // Bubbles have no members yet: what is measured, as in the paper's Table 3, is their Delaunay grid.
     let packed_quality = judge(grid);
     stages.push(StageReport {
@@ -114,6 +115,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         notes: vec![format!("{} steps, last move {:.1e} l0", report.steps, report.last_move)],
         grid: Some(grid.clone()),
     });
+    warnings.extend(narrow::warnings(&surface, &grid, length));
     finish(model, &surface, recipe, length, stages, warnings, quality, grid, job)
 }
 

@@ -5,6 +5,8 @@
 
 mod builtin;
 mod hexagon;
+mod narrow;
 mod promise;
+mod sheets;
 mod stopping;
 mod threads;

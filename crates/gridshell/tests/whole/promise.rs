@@ -35,8 +35,15 @@ pub fn surface(model: &Model, edge_length: f64) -> Surface {
     model.surface(&sampling).unwrap()
 }
 
-/// A run to its end that keeps all promises.
+/// A run to its end that keeps all promises, with no panel folded over.
 pub fn kept(model: &Model, recipe: &Recipe) -> Run {
+    let run = kept_where_sharp(model, recipe);
+    assert_eq!(run.quality.folded_panels, 0);
+    run
+}
+
+/// As [`kept`], on a surface that itself turns over within a member.
+pub fn kept_where_sharp(model: &Model, recipe: &Recipe) -> Run {
     let run = pipeline::generate(model, recipe, &Job::default()).unwrap();
     assert!(!run.stopped);
     check(model, &run);
@@ -58,7 +65,7 @@ pub fn check(model: &Model, run: &Run) {
     assert_eq!(last.xyz, run.grid.xyz, "the last stage's grid is the run's");
     let quality = &run.quality;
     assert!(quality.area_ratio > 0.9, "area ratio {}", quality.area_ratio);
-    assert_eq!((quality.bridging_members, quality.folded_panels), (0, 0));
+    assert_eq!(quality.bridging_members, 0);
 }
 
 /// A manifold with the surface's topology, exactly on it, a node at every corner.
