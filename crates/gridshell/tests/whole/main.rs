@@ -10,3 +10,4 @@ mod promise;
 mod sheets;
 mod stopping;
 mod threads;
+mod topology;
