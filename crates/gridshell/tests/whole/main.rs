@@ -6,6 +6,7 @@
 mod builtin;
 mod hexagon;
 mod narrow;
+mod paper;
 mod promise;
 mod sheets;
 mod stopping;
