@@ -3,10 +3,10 @@
 //! The folder has a README.md with a table whose columns include `file`, `area m2`, `loops` and `l0`; the
 //! first name in a row's `file` is taken, at the row's `l0`.
 
-use crate::check::cargo;
+use crate::build::{command, target};
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
@@ -25,8 +25,7 @@ struct Case {
 pub fn run(folder: &Path, names: &[&str]) -> Result<(), String> {
     let table = fs::read_to_string(folder.join("README.md"))
         .map_err(|e| format!("{}: {e}", folder.join("README.md").display()))?;
-    cargo(&["build", "--release", "--quiet", "--package", "gridshell-cli"], &[])?;
-    let gridshell = target().join("release/gridshell");
+    let gridshell = command()?;
     println!("{HEADER}");
     let wanted = |c: &Case| names.is_empty() || names.iter().any(|n| c.file.starts_with(n));
     for case in table.lines().filter_map(parse_row).filter(wanted) {
@@ -110,10 +109,4 @@ fn remarks(case: &Case, surface: &Value) -> String {
         format!("  {} loops, not {}", surface["loops"], case.loops)
     };
     area + &loops
-}
-
-/// Where cargo puts what it builds.
-fn target() -> PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../target"), PathBuf::from)
 }

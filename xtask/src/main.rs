@@ -1,10 +1,12 @@
-//! The project's own chores: `cargo xtask lint | test | cases FOLDER [NAME]...`.
+//! The project's own chores: `cargo xtask lint | test | cases | picture`.
 //!
-//! Everything here builds in the dev profile, so that the dependencies are compiled once; `cases` alone
-//! runs the release build, because it tells times.
+//! Everything here builds in the dev profile, so that the dependencies are compiled once; only `cases` and
+//! `picture` run the release build, because they tell times or take theirs.
 
+mod build;
 mod cases;
 mod check;
+mod picture;
 
 use std::process::ExitCode;
 
@@ -12,7 +14,8 @@ const USAGE: &str = "\
 usage: cargo xtask CHORE
   lint                    format, clippy and rustdoc, warnings denied
   test                    lint, then every test, the documentation's included
-  cases FOLDER [NAME]...  a grid on every case in FOLDER's README.md table (or the named ones), as a table";
+  cases FOLDER [NAME]...  a grid on every case in FOLDER's README.md table (or the named ones), as a table
+  picture SURFACE FILE    a grid on SURFACE seen from above, as a PNG";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -21,6 +24,7 @@ fn main() -> ExitCode {
         ["lint"] => check::lint(),
         ["test"] => check::lint().and_then(|()| check::test()),
         ["cases", folder, names @ ..] => cases::run(folder.as_ref(), names),
+        ["picture", surface, file] => picture::draw(surface, file.as_ref()),
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::from(2);

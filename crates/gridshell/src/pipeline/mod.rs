@@ -6,6 +6,7 @@
 //! threads. A job that is stopped still ends with the best grid so far.
 
 mod contest;
+mod narrow;
 mod score;
 mod starts;
 
@@ -69,7 +70,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
 
     let Start { report: settled, bubbles, .. } = &starts[winner.start];
     let (grid, report) = &triangulated[winner.start];
-    let warnings = warnings(&surface, bubbles.len(), report);
+    let mut warnings = warnings(&surface, bubbles.len(), report);
     // Bubbles have no members yet: what is measured, as in the paper's Table 3, is their Delaunay grid.
     let packed_quality = judge(grid);
     stages.push(StageReport {
@@ -78,7 +79,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         converged: settled.is_none_or(|r| r.converged),
         quality: Some(packed_quality.clone()),
         notes,
-        grid: None,
+        grid: Some(exact(grid.clone(), &surface)),
     });
     stages.push(StageReport {
         name: "triangulate",
@@ -109,6 +110,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         )],
         grid: Some(grid.clone()),
     });
+    warnings.extend(narrow::warnings(&surface, &grid, length));
     finish(model, &surface, recipe, length, stages, warnings, quality, grid, job)
 }
 

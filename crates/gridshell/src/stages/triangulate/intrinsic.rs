@@ -14,6 +14,11 @@ pub struct Intrinsic {
     undo: Undo,
 }
 
+/// More than a full turn is round a vertex where the surface is a saddle, so that its last four neighbours may
+/// lie such that no edge can be flipped away from it. This much of an edge it may be on the wrong side of the
+/// new one: the vertex goes next, and with it what was wrong.
+const SADDLE: f64 = 0.1;
+
 impl Intrinsic {
     /// The triangulation of a carrier, with straight edges.
     pub fn new(mesh: Mesh, xyz: &[DVec3]) -> Intrinsic {
@@ -152,11 +157,12 @@ impl Intrinsic {
     fn remove(&mut self, v: u32) -> bool {
         while self.mesh.degree(v) > 3 {
             let ring: SmallVec<[u32; 8]> = self.mesh.ring(v).into();
-            let best = ring
-                .iter()
-                .filter_map(|&w| self.flipped_length(v, w).map(|l| (l, w)))
-                .min_by(|x, y| x.0.total_cmp(&y.0));
-            match best {
+            let shortest = |reflex: f64| {
+                let lengths =
+                    ring.iter().filter_map(|&w| Some((self.flipped_length(v, w, reflex)?, w)));
+                lengths.min_by(|x, y| x.0.total_cmp(&y.0))
+            };
+            match shortest(0.0).or_else(|| shortest(SADDLE)) {
                 Some((_, w)) if self.flip(v, w) => {}
                 _ => return false,
             }
@@ -183,14 +189,14 @@ impl Intrinsic {
     }
 
     /// Length of the edge that flipping (v, w) would make; None unless the two triangles form a convex
-    /// quadrilateral and the new edge does not exist yet.
-    fn flipped_length(&self, v: u32, w: u32) -> Option<f64> {
+    /// quadrilateral and the new edge does not exist yet. At v it may be reflex by a share of the edge.
+    fn flipped_length(&self, v: u32, w: u32, reflex: f64) -> Option<f64> {
         let (l, c, d) = self.quad(v, w)?;
         if self.mesh.adjacent(self.mesh.left(v, w)?, self.mesh.right(v, w)?) {
             return None;
         }
         // Where the line from c to d crosses the axis of the edge.
         let x = c.x + (d.x - c.x) * c.y / (c.y - d.y).max(f64::MIN_POSITIVE);
-        (x > 0.0 && x < l * (1.0 - 1e-12)).then(|| c.distance(d))
+        (x > -reflex * l && x < l * (1.0 - 1e-12)).then(|| c.distance(d))
     }
 }

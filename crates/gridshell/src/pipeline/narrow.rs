@@ -1,0 +1,59 @@
+//! Places where the surface is narrower than a member: short loops, and members across a neck.
+
+use crate::grid::{Grid, Place};
+use crate::surface::Surface;
+use glam::DVec3;
+
+/// Shorter than this share of l0, a member across is forced by the surface.
+const SHORT: f64 = 0.7;
+/// Places nearer to one another than this many l0 are told once.
+const APART: f64 = 3.0;
+/// More places than this are only counted.
+const MOST: usize = 8;
+
+/// A warning for each place of `grid` where the surface has no room for members of `length` metres.
+pub fn warnings(surface: &Surface, grid: &Grid, length: f64) -> Vec<String> {
+    let places = thinned(short_loops(surface, length).chain(necks(grid, length)), APART * length);
+    let mut warnings: Vec<String> = places
+        .iter()
+        .take(MOST)
+        .map(|p| {
+            format!(
+                "near ({:.3}, {:.3}, {:.3}) the surface is narrower than a member: expect short ones there",
+                p.x, p.y, p.z
+            )
+        })
+        .collect();
+    if places.len() > MOST {
+        warnings.push(format!("and narrower than a member at {} more places", places.len() - MOST));
+    }
+    warnings
+}
+
+/// Loops that are too short for three members: where each begins.
+fn short_loops(surface: &Surface, length: f64) -> impl Iterator<Item = DVec3> + '_ {
+    let short = surface.loops.iter().filter(move |l| l.length() < 3.0 * SHORT * length);
+    short.map(|l| l.exact(surface, 0.0))
+}
+
+/// Short members from boundary to boundary through the inside: where the middle of each is.
+fn necks(grid: &Grid, length: f64) -> impl Iterator<Item = DVec3> + '_ {
+    let inside = |v: u32| matches!(grid.places[v as usize], Place::Interior(_));
+    let across = move |&(a, b): &(u32, u32)| {
+        let through = !inside(a) && !inside(b) && !grid.mesh.is_boundary_edge(a, b);
+        through && grid.length(a, b) < SHORT * length
+    };
+    let middle = |(a, b): (u32, u32)| grid.xyz[a as usize].midpoint(grid.xyz[b as usize]);
+    grid.mesh.edges().filter(across).map(middle)
+}
+
+/// The points without those near an earlier one.
+fn thinned(points: impl Iterator<Item = DVec3>, apart: f64) -> Vec<DVec3> {
+    let mut kept: Vec<DVec3> = Vec::new();
+    for p in points {
+        if kept.iter().all(|q| q.distance(p) > apart) {
+            kept.push(p);
+        }
+    }
+    kept
+}

@@ -1,0 +1,14 @@
+//! The whole method on whole surfaces: what is promised of every run, whatever the surface, the recipe, the
+//! threads or the moment at which it is stopped. Coarse grids, so that all of it takes a minute or two.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod builtin;
+mod hexagon;
+mod narrow;
+mod paper;
+mod promise;
+mod sheets;
+mod stopping;
+mod threads;
+mod topology;

@@ -1,0 +1,55 @@
+//! Places where the surface is narrower than a member.
+
+use crate::promise::{kept, paper, recipe};
+use gridshell::DVec3;
+use gridshell::surface::{Model, PolygonMesh};
+use std::f64::consts::TAU;
+
+fn sheet(name: &str, xy: &[[f64; 2]], faces: Vec<Vec<u32>>) -> Model {
+    let points = xy.iter().map(|&[x, y]| DVec3::new(x, y, 0.0)).collect();
+    Model::Mesh(PolygonMesh { name: name.into(), points, faces, notes: Vec::new() })
+}
+
+/// Two squares of side 6 joined by a neck of length 2, half a metre wide, about the origin.
+fn dumbbell() -> Model {
+    let right = [[1.0, -0.25], [1.0, -3.0], [7.0, -3.0], [7.0, 3.0], [1.0, 3.0], [1.0, 0.25]];
+    let xy: Vec<[f64; 2]> = right.into_iter().chain(right.map(|[x, y]| [-x, -y])).collect();
+    sheet("dumbbell", &xy, vec![(0..12).collect()])
+}
+
+/// A square of side 8 with a round hole of this radius about the origin.
+fn pierced(radius: f64) -> Model {
+    let ring = |k: u32| {
+        let (sin, cos) = (TAU * f64::from(k) / 16.0).sin_cos();
+        [radius * cos, radius * sin]
+    };
+    let rim = |k: u32| {
+        let [x, y] = ring(k);
+        let scale = 4.0 / x.abs().max(y.abs());
+        [x * scale, y * scale]
+    };
+    let xy: Vec<[f64; 2]> = (0..16).map(ring).chain((0..16).map(rim)).collect();
+    let faces = (0..16).map(|k| vec![k, 16 + k, 16 + (k + 1) % 16, (k + 1) % 16]).collect();
+    sheet("pierced", &xy, faces)
+}
+
+#[test]
+fn a_neck_narrower_than_a_member_is_kept_and_named() {
+    for recipe in [recipe(1.0), paper(1.0)] {
+        let run = kept(&dumbbell(), &recipe);
+        assert!(run.warnings.iter().any(|w| w.contains("narrower")), "{:?}", run.warnings);
+    }
+}
+
+#[test]
+fn a_hole_smaller_than_a_member_is_kept_and_named() {
+    for recipe in [recipe(1.0), paper(1.0)] {
+        let run = kept(&pierced(0.1), &recipe);
+        let loops = run.grid.mesh.boundary_loops();
+        let around =
+            loops.iter().filter(|l| l.iter().all(|&v| run.grid.xyz[v as usize].length() < 1.0));
+        let nodes: Vec<_> = around.map(Vec::len).collect();
+        assert!(nodes.len() == 1 && nodes[0] >= 3, "nodes round the hole: {nodes:?}");
+        assert!(run.warnings.iter().any(|w| w.contains("narrower")), "{:?}", run.warnings);
+    }
+}
