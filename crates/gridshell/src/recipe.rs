@@ -167,7 +167,7 @@ impl Default for Regularize {
             max_rounds: 200,
             node_range: 0.1,
             trials: 4000,
-            candidates: 12,
+            candidates: 16,
             finalists: 4,
             residual_weight: 1.0,
             temperature: [0.2, 0.01],
