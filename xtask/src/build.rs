@@ -1,22 +1,46 @@
 //! Cargo and what it makes.
 
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, ExitStatus, Stdio};
 
 /// Run cargo itself, with these arguments and variables.
 pub fn cargo(args: &[&str], variables: &[(&str, &str)]) -> Result<(), String> {
-    eprintln!("cargo {}", args.join(" "));
-    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let status = Command::new(program)
-        .args(args)
+    let status = command_line(args)
         .envs(variables.iter().copied())
         .status()
         .map_err(|e| format!("cargo does not start: {e}"))?;
+    ended(args, status)
+}
+
+/// Run cargo, pass on what it prints, and show `hear` every line of it.
+pub fn cargo_aloud(args: &[&str], mut hear: impl FnMut(&str)) -> Result<(), String> {
+    let mut child = command_line(args)
+        .stdout(Stdio::piped())
+        .spawn()
+        .map_err(|e| format!("cargo does not start: {e}"))?;
+    let stdout = child.stdout.take().ok_or("cargo has no output")?;
+    for line in BufReader::new(stdout).lines().map_while(Result::ok) {
+        println!("{line}");
+        hear(&line);
+    }
+    let status = child.wait().map_err(|e| e.to_string())?;
+    ended(args, status)
+}
+
+fn command_line(args: &[&str]) -> Command {
+    eprintln!("cargo {}", args.join(" "));
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(args);
+    command
+}
+
+fn ended(args: &[&str], status: ExitStatus) -> Result<(), String> {
     if status.success() { Ok(()) } else { Err(format!("cargo {} failed", args[0])) }
 }
 
 /// The command `gridshell`, built for speed.
-pub fn command() -> Result<PathBuf, String> {
+pub fn gridshell() -> Result<PathBuf, String> {
     cargo(&["build", "--release", "--quiet", "--package", "gridshell-cli"], &[])?;
     Ok(target().join("release/gridshell"))
 }

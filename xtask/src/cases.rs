@@ -3,7 +3,7 @@
 //! The folder has a README.md with a table whose columns include `file`, `area m2`, `loops` and `l0`; the
 //! first name in a row's `file` is taken, at the row's `l0`.
 
-use crate::build::{command, target};
+use crate::build::{self, target};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -25,7 +25,7 @@ struct Case {
 pub fn run(folder: &Path, names: &[&str]) -> Result<(), String> {
     let table = fs::read_to_string(folder.join("README.md"))
         .map_err(|e| format!("{}: {e}", folder.join("README.md").display()))?;
-    let gridshell = command()?;
+    let gridshell = build::gridshell()?;
     println!("{HEADER}");
     let wanted = |c: &Case| names.is_empty() || names.iter().any(|n| c.file.starts_with(n));
     for case in table.lines().filter_map(parse_row).filter(wanted) {

@@ -1,6 +1,6 @@
 //! What must hold before a change is shared.
 
-use crate::build::cargo;
+use crate::build::{cargo, cargo_aloud};
 
 /// Format, clippy on all targets, rustdoc.
 pub fn lint() -> Result<(), String> {
@@ -9,7 +9,61 @@ pub fn lint() -> Result<(), String> {
     cargo(&["doc", "--workspace", "--no-deps", "--quiet"], &[("RUSTDOCFLAGS", "-D warnings")])
 }
 
-/// Every test of the workspace, and those in the documentation.
+/// Every test of the workspace, and those in the documentation; the last line printed sums them up as cargo
+/// does for each.
 pub fn test() -> Result<(), String> {
-    cargo(&["test", "--workspace", "--quiet"], &[])
+    let mut sum = Tally::default();
+    let result = cargo_aloud(&["test", "--workspace", "--no-fail-fast", "--quiet"], |line| {
+        sum.add(line);
+    });
+    let word = if result.is_ok() { "ok" } else { "FAILED" };
+    println!(
+        "test result: {word}. {} passed; {} failed; {} ignored",
+        sum.passed, sum.failed, sum.ignored
+    );
+    result
+}
+
+/// Numbers of tests.
+#[derive(Debug, Default, PartialEq)]
+struct Tally {
+    passed: usize,
+    failed: usize,
+    ignored: usize,
+}
+
+impl Tally {
+    /// Add what a line of cargo's says, if it is a result.
+    fn add(&mut self, line: &str) {
+        let Some(counts) = line.strip_prefix("test result: ") else { return };
+        let counts = counts.split_once(". ").map_or(counts, |(_, counts)| counts);
+        for count in counts.split("; ") {
+            let Some((number, kind)) = count.split_once(' ') else { continue };
+            let number: usize = number.parse().unwrap_or(0);
+            match kind {
+                "passed" => self.passed += number,
+                "failed" => self.failed += number,
+                "ignored" => self.ignored += number,
+                _ => {}
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Tally;
+
+    #[test]
+    fn results_add_up_and_other_lines_do_not() {
+        let mut sum = Tally::default();
+        for line in [
+            "running 3 tests",
+            "test result: ok. 3 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.1s",
+            "test result: FAILED. 7 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out",
+        ] {
+            sum.add(line);
+        }
+        assert_eq!(sum, Tally { passed: 10, failed: 2, ignored: 1 });
+    }
 }

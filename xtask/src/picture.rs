@@ -1,7 +1,7 @@
 //! A grid seen from above: members coloured by their length, irregular nodes as in the paper's figures, black
 //! for those with too few members (adjusted degree below 6) and white for those with too many.
 
-use crate::build::{command, target};
+use crate::build::{self, target};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -49,7 +49,7 @@ pub fn draw(surface: &str, file: &Path) -> Result<(), String> {
 
 /// Run the command, and read what it wrote.
 fn plan(surface: &str) -> Result<Plan, String> {
-    let gridshell = command()?;
+    let gridshell = build::gridshell()?;
     let grid = target().join("picture.obj");
     let run = Command::new(gridshell)
         .args(["generate", surface, "--json", "-o"])

@@ -1,0 +1,93 @@
+//! Times of the stages on the saddle, over three sizes. Never a gate.
+
+#![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
+#![allow(missing_docs, reason = "criterion's macros make functions without any")]
+
+use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
+use gridshell::balance::{self, balance};
+use gridshell::bubbles::Bubbles;
+use gridshell::grid::Grid;
+use gridshell::job::Job;
+use gridshell::recipe::Recipe;
+use gridshell::stages::{pack, regularize, triangulate};
+use gridshell::surface::{Sampling, Surface, builtin};
+use std::hint::black_box;
+
+/// Wanted members, metres: about 120, 480 and 1,900 nodes.
+const LENGTHS: [f64; 3] = [3.0, 1.5, 0.75];
+
+/// One size of the problem: what every stage starts from.
+struct Size {
+    length: f64,
+    recipe: Recipe,
+    surface: Surface,
+    bubbles: Bubbles,
+    grid: Grid,
+}
+
+impl Size {
+    fn new(length: f64) -> Size {
+        let recipe = Recipe { edge_length: Some(length), ..Recipe::named("paper").unwrap() };
+        let sampling = Sampling {
+            max_edge: 0.5 * length,
+            chord_error: 2e-3 * length,
+            corner_angle: recipe.corner_angle_deg.to_radians(),
+        };
+        let surface = builtin::model("saddle").unwrap().surface(&sampling).unwrap();
+        let pieces = pack::boundary::pieces(&surface);
+        let counts: Vec<usize> =
+            pieces.iter().map(|p| pack::boundary::member_count(p, length)).collect();
+        let boundary = pack::boundary::place(&surface, &pieces, &counts, 0.0);
+        let count = pack::interior_count(&surface, boundary.len(), length, recipe.pack.k_n);
+        let interior = pack::scatter(&surface, count, &mut fastrand::Rng::with_seed(1));
+        let bubbles = Bubbles { boundary, interior };
+        let mut settled = bubbles.clone();
+        pack::settle(&surface, &mut settled, length, &recipe.pack, &Job::default());
+        let grid = triangulate::triangulate(&surface, &settled).unwrap().0;
+        Size { length, recipe, surface, bubbles, grid }
+    }
+}
+
+fn stages(criterion: &mut Criterion) {
+    for size in LENGTHS.map(Size::new) {
+        let id = |stage: &str| BenchmarkId::new(stage, format!("{} nodes", size.grid.xyz.len()));
+        let Size { length, recipe, surface, bubbles, grid } = &size;
+        let mut group = criterion.benchmark_group("saddle");
+        group.sample_size(10);
+        // A hundred steps: how many it takes to settle depends on chance.
+        let steps = gridshell::recipe::Pack { max_steps: 100, ..recipe.pack.clone() };
+        group.bench_function(id("pack 100 steps"), |b| {
+            b.iter_batched_ref(
+                || bubbles.clone(),
+                |bubbles| pack::settle(surface, bubbles, *length, &steps, &Job::default()),
+                BatchSize::LargeInput,
+            );
+        });
+        group.bench_function(id("triangulate"), |b| {
+            b.iter(|| triangulate::triangulate(surface, black_box(bubbles)).unwrap());
+        });
+        group.bench_function(id("regularize"), |b| {
+            b.iter_batched(
+                || grid.clone(),
+                |grid| {
+                    let job = Job::default();
+                    regularize::regularize(surface, grid, *length, recipe, recipe.seed, &job)
+                },
+                BatchSize::LargeInput,
+            );
+        });
+        let options =
+            balance::Options { straightness: 0.3, settled: 1e-6, max_steps: 10, accuracy: 1e-3 };
+        group.bench_function(id("balance 10 steps"), |b| {
+            b.iter_batched_ref(
+                || grid.clone(),
+                |grid| balance(surface, grid, &options, &Job::default()),
+                BatchSize::LargeInput,
+            );
+        });
+        group.finish();
+    }
+}
+
+criterion_group!(benches, stages);
+criterion_main!(benches);
