@@ -76,6 +76,8 @@ pub struct Regularize {
     pub node_range: f64,
     /// Trials of the search per irregular node.
     pub trials: usize,
+    /// Trials of the search of one grid at most: keeps large grids within seconds.
+    pub most_trials: usize,
     /// Grids searched side by side; the best is kept.
     pub candidates: usize,
     /// How many of them, the best, are relaxed to the end.
@@ -166,11 +168,12 @@ impl Default for Regularize {
             method: RegularizeMethod::Search,
             max_rounds: 200,
             node_range: 0.1,
-            trials: 4000,
+            trials: 6000,
+            most_trials: 240_000,
             candidates: 16,
             finalists: 4,
-            residual_weight: 1.0,
-            temperature: [0.2, 0.01],
+            residual_weight: 0.6,
+            temperature: [0.15, 0.03],
         }
     }
 }

@@ -44,7 +44,8 @@ impl Operation {
 /// Anneal `state`.
 pub fn anneal(state: &mut State, options: &Regularize, seed: u64, job: &Job) -> Report {
     let mut report = Report::default();
-    let trials = options.trials * state.irregular().len().max(1);
+    let wanted = options.trials.saturating_mul(state.irregular().len().max(1));
+    let trials = wanted.min(options.most_trials);
     let [hot, cold] = options.temperature;
     let mut search = Search::new(state, options, seed);
     for round in 0..ROUNDS {
