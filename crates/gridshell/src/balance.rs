@@ -17,6 +17,9 @@ const DAMPING: f64 = 1e-4;
 /// Largest move of a node in one step, over the mean length.
 const REACH: f64 = 0.25;
 
+/// Halvings (and more) of a step that does not lower the energy.
+const BACK_OFFS: usize = 8;
+
 /// How to balance.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
@@ -54,7 +57,8 @@ pub fn balance(surface: &Surface, grid: &mut Grid, options: &Options, job: &Job)
         let longest = step.iter().map(|d| d.length()).fold(0.0, f64::max);
         let mut scale = (REACH * system.mean / longest).min(1.0);
         // Gauss-Newton leaves out what compressed members lack in stiffness: back off where it overshoots.
-        for _ in 0..8 {
+        let mut lower = false;
+        for _ in 0..BACK_OFFS {
             let before = grid.clone();
             report.last_move = 0.0;
             for (i, d) in step.iter().enumerate() {
@@ -62,15 +66,17 @@ pub fn balance(surface: &Surface, grid: &mut Grid, options: &Options, job: &Job)
                 report.last_move = report.last_move.max(moved / system.mean);
             }
             let after = system.energy(surface, grid);
-            if after <= energy || report.last_move < options.settled {
+            lower = after < energy;
+            if lower || report.last_move < options.settled {
                 energy = after;
                 break;
             }
             *grid = before;
             scale *= 0.4;
         }
+        // No step along this direction lowers the energy: it is as low as rounding lets it be.
+        report.converged = !lower || report.last_move < options.settled;
         report.steps += 1;
-        report.converged = report.last_move < options.settled;
         if report.converged {
             break;
         }

@@ -78,6 +78,12 @@ pub struct Regularize {
     pub trials: usize,
     /// Grids searched side by side; the best is kept.
     pub candidates: usize,
+    /// How many of them, the best, are relaxed to the end.
+    pub finalists: usize,
+    /// Weight w of the residual R in the search's energy, sum of (l / l0 - 1)^2 + w R.
+    pub residual_weight: f64,
+    /// First and last temperature of the search, in units of that energy.
+    pub temperature: [f64; 2],
 }
 
 /// The methods of regularizing.
@@ -161,7 +167,10 @@ impl Default for Regularize {
             max_rounds: 200,
             node_range: 0.1,
             trials: 4000,
-            candidates: 8,
+            candidates: 16,
+            finalists: 4,
+            residual_weight: 1.0,
+            temperature: [0.2, 0.01],
         }
     }
 }

@@ -5,6 +5,7 @@
 //! Every choice is seeded by the recipe and the place in its list, so the grid is the same for any number of
 //! threads. A job that is stopped still ends with the best grid so far.
 
+mod contest;
 mod narrow;
 mod score;
 mod starts;
@@ -17,7 +18,7 @@ use crate::job::Job;
 use crate::recipe::Recipe;
 use crate::run::{Run, SCHEMA, StageReport, SurfaceSummary};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
-use crate::stages::{regularize, relax, triangulate};
+use crate::stages::triangulate;
 use crate::surface::{Model, Sampling, Surface, builtin};
 use rayon::prelude::*;
 use starts::{Start, Starts};
@@ -51,28 +52,24 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     let clock = Instant::now();
     let triangulated: Vec<(Grid, triangulate::Report)> = starts
         .par_iter()
-        .map(|start| triangulate::triangulate(&surface, &start.bubbles))
+        .map(|start| match &start.grid {
+            Some(grid) => Ok((grid.clone(), triangulate::Report::default())),
+            None => triangulate::triangulate(&surface, &start.bubbles),
+        })
         .collect::<Result<_>>()?;
     let triangulated_in = clock.elapsed().as_secs_f64();
 
     let clock = Instant::now();
-    let candidates: Vec<(Grid, regularize::Report, f64)> = triangulated
-        .par_iter()
-        .zip(&starts)
-        .map(|((grid, _), start)| {
-            let (grid, report) =
-                regularize::regularize(&surface, grid.clone(), length, recipe, start.seed, job);
-            let points = score(&judge(&grid));
-            (grid, report, points)
-        })
-        .collect();
-    let best = (0..candidates.len())
-        .max_by(|&a, &b| candidates[a].2.total_cmp(&candidates[b].2).then(b.cmp(&a)))
-        .ok_or_else(|| Error::Surface("the surface has no room for a single node".into()))?;
+    let candidates = contest::regularize(&surface, &starts, &triangulated, length, recipe, job);
     let regularized_in = clock.elapsed().as_secs_f64();
+    let clock = Instant::now();
+    let Some(winner) = contest::relax(&surface, candidates, length, recipe, job) else {
+        return Err(Error::Surface("the surface has no room for a single node".into()));
+    };
+    let relaxed_in = clock.elapsed().as_secs_f64();
 
-    let Start { report: settled, bubbles, .. } = &starts[best];
-    let (grid, report) = &triangulated[best];
+    let Start { report: settled, bubbles, .. } = &starts[winner.start];
+    let (grid, report) = &triangulated[winner.start];
     let mut warnings = warnings(&surface, bubbles.len(), report);
     // Bubbles have no members yet: what is measured, as in the paper's Table 3, is their Delaunay grid.
     let packed_quality = judge(grid);
@@ -92,27 +89,25 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         notes: Vec::new(),
         grid: Some(exact(grid.clone(), &surface)),
     });
-    let (grid, report, _) = &candidates[best];
     stages.push(StageReport {
         name: "regularize",
         seconds: regularized_in,
-        converged: report.converged,
-        quality: Some(judge(grid)),
-        notes: vec![report.to_string()],
-        grid: Some(exact(grid.clone(), &surface)),
+        converged: winner.regularized.converged,
+        quality: Some(judge(&winner.before)),
+        notes: vec![winner.regularized.to_string()],
+        grid: Some(exact(winner.before, &surface)),
     });
-
-    let clock = Instant::now();
-    let mut grid = grid.clone();
-    let report = relax::relax(&surface, &mut grid, &recipe.relax, job);
-    let grid = exact(grid, &surface);
+    let grid = exact(winner.grid, &surface);
     let quality = judge(&grid);
     stages.push(StageReport {
         name: "relax",
-        seconds: clock.elapsed().as_secs_f64(),
-        converged: report.converged,
+        seconds: relaxed_in,
+        converged: winner.relaxed.converged,
         quality: Some(quality.clone()),
-        notes: vec![format!("{} steps, last move {:.1e} l0", report.steps, report.last_move)],
+        notes: vec![format!(
+            "{} steps, last move {:.1e} l0",
+            winner.relaxed.steps, winner.relaxed.last_move
+        )],
         grid: Some(grid.clone()),
     });
     warnings.extend(narrow::warnings(&surface, &grid, length));

@@ -10,14 +10,14 @@ pub fn score(quality: &Quality) -> f64 {
     let fluency = quality.fluency.unwrap_or(PERFECT).min(PERFECT);
     let mean = quality.edge_length.mean / (quality.edge_length.max / quality.max_length_ratio);
     fluency
-        - 60.0 * over(quality.edge_length.cv, 0.07)
-        - 6.0 * under(quality.shape.min, 0.65)
-        - 6.0 * under(quality.min_length_ratio, 0.65)
-        - 6.0 * over(quality.max_length_ratio, 1.4)
+        - 25.0 * over(quality.edge_length.cv, 0.075)
+        - 4.0 * under(quality.shape.min, 0.62)
+        - 4.0 * under(quality.min_length_ratio, 0.62)
+        - 4.0 * over(quality.max_length_ratio, 1.45)
         - 40.0 * over((mean - 1.0).abs(), 0.02)
-        - 20.0 * under(quality.border.shape_mean, 0.96)
-        - 10.0 * over(quality.border.edge_length_cv, 0.11)
-        - 100.0 * under(quality.area_ratio, 0.99)
+        - 10.0 * under(quality.border.shape_mean, 0.955)
+        - 5.0 * over(quality.border.edge_length_cv, 0.125)
+        - 100.0 * under(quality.area_ratio, 0.985)
         - 10.0 * quality.folded_panels as f64
         - 10.0 * quality.bridging_members as f64
 }

@@ -21,6 +21,8 @@ pub struct Start {
     pub seed: u64,
     /// How they settled, where they did.
     pub report: Option<pack::Report>,
+    /// Their grid, where they were judged by it.
+    pub grid: Option<Grid>,
 }
 
 /// The starts of all candidates, and what is to be said about them.
@@ -33,6 +35,9 @@ pub struct Starts {
 
 /// Draws of a lattice are judged after this many steps of balancing.
 const TRIAL_STEPS: usize = 3;
+
+/// Mean strain of a chart beyond which lattices laid on it are poor starts.
+const STRAINED: f64 = 0.03;
 
 /// The starts that the recipe asks for; bubbles where a lattice is wanted but the surface has no chart.
 pub fn starts(surface: &Surface, length: f64, recipe: &Recipe, job: &Job) -> Result<Starts> {
@@ -70,7 +75,7 @@ fn packing(surface: &Surface, length: f64, recipe: &Recipe, seed: u64, job: &Job
     let interior = pack::scatter(surface, count, &mut rng);
     let mut bubbles = Bubbles { boundary, interior };
     let report = pack::settle(surface, &mut bubbles, length, &recipe.pack, job);
-    Start { bubbles, seed, report: Some(report) }
+    Start { bubbles, seed, report: Some(report), grid: None }
 }
 
 /// The best of the lattices drawn.
@@ -103,18 +108,31 @@ fn lattices(
                 lattice.angle = chart.border_direction(&surface.loops, rng.f64());
             }
             let bubbles = lattice.bubbles(surface, chart, length);
-            let mut grid = connect(surface, chart, &bubbles)?;
+            let start = connect(surface, chart, &bubbles)?;
+            let mut grid = start.clone();
             balance(surface, &mut grid, &trial, &Job::default());
             let points = score(&compare(&grid, surface, length, &recipe.measure));
-            Ok(Some((points, Start { bubbles, seed, report: None })))
+            Ok(Some((points, Start { bubbles, seed, report: None, grid: Some(start) })))
         })
         .collect::<Result<_>>()?;
     let mut judged: Vec<(f64, Start)> = judged.into_iter().flatten().collect();
     // A stable sort: equals stay in the order of their draws.
     judged.sort_by(|a, b| b.0.total_cmp(&a.0));
-    judged.truncate(recipe.regularize.candidates.max(1));
-    let notes = vec![format!("lattice start: the best {} of {draws} draws", judged.len())];
-    Ok(Starts { starts: judged.into_iter().map(|j| j.1).collect(), notes })
+    let candidates = recipe.regularize.candidates.max(1);
+    // Where the chart strains, a lattice does too: bubbles take part.
+    let packed = if chart.strain(&surface.carrier) > STRAINED { candidates / 4 } else { 0 };
+    judged.truncate(candidates - packed);
+    let notes = vec![format!(
+        "lattice start: the best {} of {draws} draws, and {packed} packings",
+        judged.len()
+    )];
+    let mut starts: Vec<Start> = judged.into_iter().map(|j| j.1).collect();
+    starts.par_extend(
+        (0..packed as u64)
+            .into_par_iter()
+            .map(|k| packing(surface, length, recipe, seed(recipe, draws as u64 + k), job)),
+    );
+    Ok(Starts { starts, notes })
 }
 
 /// Triangulate in the chart where that works, else on the carrier.

@@ -48,6 +48,21 @@ impl Chart {
         Some(chart)
     }
 
+    /// How much the chart stretches and shrinks: root mean square of (length in the chart / on the carrier - 1).
+    pub fn strain(&self, carrier: &Carrier) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for corners in &carrier.triangles {
+            for k in 0..3 {
+                let (a, b) = (corners[k] as usize, corners[(k + 1) % 3] as usize);
+                let length = carrier.points[a].distance(carrier.points[b]);
+                let strain = self.uv[a].distance(self.uv[b]) / length - 1.0;
+                sum += strain * strain;
+                count += 1.0;
+            }
+        }
+        (sum / count).sqrt()
+    }
+
     /// Direction of the border at this share (0 to 1) of its whole length, loop after loop, radians.
     pub fn border_direction(&self, loops: &[Chain], share: f64) -> f64 {
         let mut at = share * loops.iter().map(Chain::length).sum::<f64>();

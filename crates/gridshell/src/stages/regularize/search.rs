@@ -9,13 +9,9 @@ use super::Report;
 use super::state::State;
 use crate::job::Job;
 use crate::math::trig::{exp, ln};
+use crate::mesh::Refusal;
 use crate::recipe::Regularize;
 
-/// Weight w of the residual against the spread of lengths.
-const WEIGHT: f64 = 0.6;
-/// First and last temperature.
-const HOT: f64 = 0.25;
-const COLD: f64 = 0.01;
 /// Rounds of the schedule, each ended by sweeps over all nodes.
 const ROUNDS: usize = 4;
 /// Panels below this shape index are refused.
@@ -28,24 +24,40 @@ const COUNT_WEIGHT: f64 = 30.0;
 
 /// An operation on the edge (a, b).
 #[derive(Clone, Copy)]
-enum Operation {
+pub enum Operation {
     Flip,
     Collapse,
     Split,
+}
+
+impl Operation {
+    /// Make it; gives a vertex in its middle.
+    pub fn apply(self, state: &mut State, a: u32, b: u32) -> Result<u32, Refusal> {
+        match self {
+            Operation::Flip => state.flip(a, b).map(|_| a),
+            Operation::Collapse => state.collapse(a, b),
+            Operation::Split => state.split(a, b),
+        }
+    }
 }
 
 /// Anneal `state`.
 pub fn anneal(state: &mut State, options: &Regularize, seed: u64, job: &Job) -> Report {
     let mut report = Report::default();
     let trials = options.trials * state.irregular().len().max(1);
+    let [hot, cold] = options.temperature;
     let mut search = Search::new(state, options, seed);
     for round in 0..ROUNDS {
         for k in 0..trials / ROUNDS {
-            if search.state.irregular().is_empty() || (k % 256 == 0 && job.stopped()) {
+            if search.state.irregular().is_empty() {
+                report.converged = true;
+                return report;
+            }
+            if k % 256 == 0 && job.stopped() {
                 return report;
             }
             let done = (round as f64 + k as f64 / (trials / ROUNDS) as f64) / ROUNDS as f64;
-            search.temperature = HOT * exp(ln(COLD / HOT) * done);
+            search.temperature = hot * exp(ln(cold / hot) * done);
             if k % 4096 == 0 {
                 job.progress("regularize", done, &[]);
             }
@@ -65,6 +77,8 @@ struct Search<'a, 'b> {
     state: &'a mut State<'b>,
     rng: fastrand::Rng,
     temperature: f64,
+    /// Weight w of R.
+    weight: f64,
     /// Nodes, those on the boundary by half: what the area decides. Now, and as wanted.
     count: f64,
     target: f64,
@@ -72,7 +86,7 @@ struct Search<'a, 'b> {
 }
 
 /// Pick an irregular vertex, an interior one three times in four, and an operation near it.
-fn draw(state: &State, rng: &mut fastrand::Rng) -> Option<(Operation, u32, u32)> {
+pub fn draw(state: &State, rng: &mut fastrand::Rng) -> Option<(Operation, u32, u32)> {
     let mesh = &state.grid.mesh;
     let irregular = state.irregular();
     let mut v = irregular[rng.usize(..irregular.len())];
@@ -129,7 +143,15 @@ impl<'a, 'b> Search<'a, 'b> {
         let surface = state.surface;
         let panel = 3f64.sqrt() / 4.0 * state.length * state.length;
         let target = surface.area / (2.0 * panel) + surface.euler_characteristic() as f64;
-        Search { state, rng, temperature: HOT, count, target, range }
+        Search {
+            state,
+            rng,
+            temperature: options.temperature[0],
+            weight: options.residual_weight,
+            count,
+            target,
+            range,
+        }
     }
 
     /// Try one operation: keep it with the odds of the temperature.
@@ -167,17 +189,12 @@ impl<'a, 'b> Search<'a, 'b> {
             Operation::Collapse => self.range.contains(&(nodes - 1)),
             Operation::Split => self.range.contains(&(nodes + 1)),
         };
-        if WEIGHT * change + count_change > allowance + HOPE || !in_range {
+        if self.weight * change + count_change > allowance + HOPE || !in_range {
             return false;
         }
         let region = state.region(&[a, b], 2);
-        let before = state.length_energy(&region) + WEIGHT * weighted_residual(state, &region);
-        let done = match operation {
-            Operation::Flip => state.flip(a, b).map(|_| a),
-            Operation::Collapse => state.collapse(a, b),
-            Operation::Split => state.split(a, b),
-        };
-        let Ok(center) = done else { return false };
+        let before = state.length_energy(&region) + self.weight * weighted_residual(state, &region);
+        let Ok(center) = operation.apply(state, a, b) else { return false };
         let mut seeds = region;
         seeds.push(center);
         let region = state.region(&seeds, 0);
@@ -185,7 +202,7 @@ impl<'a, 'b> Search<'a, 'b> {
         state.refresh(&region);
         let touched = state.touched();
         state.refresh(&touched);
-        let after = state.length_energy(&region) + WEIGHT * weighted_residual(state, &region);
+        let after = state.length_energy(&region) + self.weight * weighted_residual(state, &region);
         count_change + after - before <= allowance && !state.has_bad_panel(&touched, LEAST_SHAPE)
     }
 }

@@ -214,7 +214,7 @@ impl<'a> State<'a> {
         let mut sum = 0.0;
         for &v in region {
             for &w in self.grid.mesh.ring(v) {
-                if w > v || self.mark[w as usize] != self.stamp {
+                if w > v || !self.in_region(w) {
                     let strain = self.member(v, w).1 / self.length - 1.0;
                     sum += strain * strain;
                 }
@@ -257,6 +257,11 @@ impl<'a> State<'a> {
                 self.grid.slide(self.surface, v as usize, step);
             }
         }
+    }
+
+    /// Whether `v` is in the region last gathered.
+    pub fn in_region(&self, v: u32) -> bool {
+        self.mark[v as usize] == self.stamp
     }
 
     /// Whether a panel at one of these vertices is a sliver (shape below `least`) or turned over.
