@@ -55,7 +55,11 @@ pub fn surface(s: &SurfaceSummary) -> String {
         a[0], b[0], a[1], b[1], a[2], b[2]
     );
     let _ = writeln!(text, "unit of the file: {} m", s.unit_in_metres);
-    let _ = writeln!(text, "largest gap: {:.1e} m", s.gap);
+    let _ = writeln!(
+        text,
+        "largest gap: {:.1e} m between edges, {:.1e} m between edges and patches",
+        s.gap, s.edge_gap
+    );
     for note in &s.notes {
         let _ = writeln!(text, "note: {note}");
     }

@@ -157,9 +157,14 @@ impl Grid {
 }
 
 impl Place {
-    /// Distance in metres of `xyz`, which should stand at this place, from the exact surface.
+    /// Distance in metres of `xyz`, which should stand at this place, from the exact surface: its patches with
+    /// their edges. Files draw edges a little off their patches; a node on the edge is on the surface.
     pub fn off_surface(&self, surface: &Surface, xyz: DVec3) -> f64 {
-        surface.deviation(&self.surface_point(surface), xyz)
+        let off_patch = surface.deviation(&self.surface_point(surface), xyz);
+        match self {
+            Place::Interior(_) => off_patch,
+            Place::Boundary(_) | Place::Corner(_) => off_patch.min(self.off_boundary(surface, xyz)),
+        }
     }
 
     /// Distance in metres of `xyz` from the exact boundary; 0 for an interior place.

@@ -84,6 +84,8 @@ pub struct SurfaceSummary {
     pub unit_in_metres: f64,
     /// Largest distance between an edge's end and its vertex; how well the file's patches join.
     pub gap: f64,
+    /// Largest distance between the boundary's edge curves and the patches they bound.
+    pub edge_gap: f64,
     /// What was skipped or repaired while reading.
     pub notes: Vec<String>,
 }
@@ -128,6 +130,7 @@ impl SurfaceSummary {
             bounds: Bounds::of(&surface.carrier.points),
             unit_in_metres,
             gap,
+            edge_gap: edge_gap(surface),
             notes: notes.clone(),
         }
     }
@@ -140,6 +143,16 @@ impl Bounds {
         let (min, max) = points.iter().fold((first, first), |(lo, hi), &p| (lo.min(p), hi.max(p)));
         Bounds { min: min.to_array(), max: max.to_array() }
     }
+}
+
+/// Over all vertices of the loops, which stand on the exact edge curves.
+fn edge_gap(surface: &Surface) -> f64 {
+    let off = surface.loops.iter().flat_map(|chain| {
+        chain.vertices.iter().zip(&chain.arc).map(|(&v, &s)| {
+            surface.deviation(&chain.surface_point(s), surface.carrier.points[v as usize])
+        })
+    });
+    off.fold(0.0, f64::max)
 }
 
 fn largest_gap(brep: &crate::surface::Brep) -> f64 {

@@ -34,8 +34,9 @@ impl Lattice {
         }
     }
 
-    /// The bubbles of this lattice on `surface` for members of `length` metres.
-    pub fn bubbles(&self, surface: &Surface, chart: &Chart, length: f64) -> Bubbles {
+    /// The bubbles of this lattice on `surface` for members of `length` metres, `k_n` times as many as Eq. 1
+    /// asks for.
+    pub fn bubbles(&self, surface: &Surface, chart: &Chart, length: f64, k_n: f64) -> Bubbles {
         let pieces = pieces(surface);
         let count = |(p, extra): (_, &i64)| {
             let n = member_count(p, length) as i64 + extra;
@@ -43,7 +44,7 @@ impl Lattice {
         };
         let counts: Vec<usize> = pieces.iter().zip(&self.extra).map(count).collect();
         let boundary = place(surface, &pieces, &counts, self.slide);
-        let wanted = interior_count(surface, boundary.len(), length, 1.0) as f64;
+        let wanted = interior_count(surface, boundary.len(), length, k_n) as f64;
         let mut step = length;
         let mut interior = self.interior(surface, chart, length, step);
         // The strip kept clear along the border and the chart's distortion cost nodes: draw the lattice

@@ -49,7 +49,9 @@ pub fn regularize(
     let mut state = State::new(surface, grid, length, recipe.measure.lambda);
     let report = match recipe.regularize.method {
         RegularizeMethod::Paper => paper::algorithm1(&mut state, &recipe.regularize, job),
-        RegularizeMethod::Search => search::anneal(&mut state, &recipe.regularize, seed, job),
+        RegularizeMethod::Search => {
+            search::anneal(&mut state, &recipe.regularize, recipe.pack.k_n, seed, job)
+        }
     };
     (state.into_grid(), report)
 }

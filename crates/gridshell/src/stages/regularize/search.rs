@@ -41,13 +41,13 @@ impl Operation {
     }
 }
 
-/// Anneal `state`.
-pub fn anneal(state: &mut State, options: &Regularize, seed: u64, job: &Job) -> Report {
+/// Anneal `state`, keeping to `k_n` times as many nodes as Eq. 1 asks for.
+pub fn anneal(state: &mut State, options: &Regularize, k_n: f64, seed: u64, job: &Job) -> Report {
     let mut report = Report::default();
     let wanted = options.trials.saturating_mul(state.irregular().len().max(1));
     let trials = wanted.min(options.most_trials);
     let [hot, cold] = options.temperature;
-    let mut search = Search::new(state, options, seed);
+    let mut search = Search::new(state, options, k_n, seed);
     for round in 0..ROUNDS {
         for k in 0..trials / ROUNDS {
             if search.state.irregular().is_empty() {
@@ -133,7 +133,7 @@ fn estimate(state: &State, operation: Operation, a: u32, b: u32) -> Option<f64> 
 }
 
 impl<'a, 'b> Search<'a, 'b> {
-    fn new(state: &'a mut State<'b>, options: &Regularize, seed: u64) -> Self {
+    fn new(state: &'a mut State<'b>, options: &Regularize, k_n: f64, seed: u64) -> Self {
         let mesh = &state.grid.mesh;
         let n = mesh.vertex_count() as f64;
         let count = n - 0.5 * mesh.boundary_count() as f64;
@@ -143,7 +143,7 @@ impl<'a, 'b> Search<'a, 'b> {
         // As many as members of the wanted length leave room for (Eq. 1).
         let surface = state.surface;
         let panel = 3f64.sqrt() / 4.0 * state.length * state.length;
-        let target = surface.area / (2.0 * panel) + surface.euler_characteristic() as f64;
+        let target = k_n * surface.area / (2.0 * panel) + surface.euler_characteristic() as f64;
         Search {
             state,
             rng,
