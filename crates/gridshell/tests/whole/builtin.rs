@@ -1,6 +1,6 @@
 //! Every built-in surface, coarse.
 
-use crate::promise::{kept, model, recipe};
+use crate::promise::{kept, model, quick};
 use gridshell::surface::builtin;
 
 /// Edge lengths over the sensible ones.
@@ -8,7 +8,7 @@ const COARSER: f64 = 2.5;
 
 fn coarse(name: &str) {
     let length = builtin::ALL.iter().find(|b| b.name == name).unwrap().edge_length;
-    let run = kept(&model(name), &recipe(COARSER * length));
+    let run = kept(&model(name), &quick(COARSER * length));
     let mean = run.quality.edge_length.mean / run.edge_length;
     assert!((0.85..1.15).contains(&mean), "{name}: mean length {mean} l0");
 }

@@ -1,6 +1,6 @@
 //! Places where the surface is narrower than a member.
 
-use crate::promise::{kept, paper, recipe};
+use crate::promise::{kept, paper, quick};
 use gridshell::DVec3;
 use gridshell::surface::{Model, PolygonMesh};
 use std::f64::consts::TAU;
@@ -35,7 +35,7 @@ fn pierced(radius: f64) -> Model {
 
 #[test]
 fn a_neck_narrower_than_a_member_is_kept_and_named() {
-    for recipe in [recipe(1.0), paper(1.0)] {
+    for recipe in [quick(1.0), paper(1.0)] {
         let run = kept(&dumbbell(), &recipe);
         assert!(run.warnings.iter().any(|w| w.contains("narrower")), "{:?}", run.warnings);
     }
@@ -43,7 +43,7 @@ fn a_neck_narrower_than_a_member_is_kept_and_named() {
 
 #[test]
 fn a_hole_smaller_than_a_member_is_kept_and_named() {
-    for recipe in [recipe(1.0), paper(1.0)] {
+    for recipe in [quick(1.0), paper(1.0)] {
         let run = kept(&pierced(0.1), &recipe);
         let loops = run.grid.mesh.boundary_loops();
         let around =

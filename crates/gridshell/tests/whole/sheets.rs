@@ -1,6 +1,6 @@
 //! Two sheets so near one another that straight lines leap between them.
 
-use crate::promise::{kept_where_sharp, paper, recipe};
+use crate::promise::{kept_where_sharp, paper, quick};
 use gridshell::DVec3;
 use gridshell::recipe::Recipe;
 use gridshell::surface::{Model, PolygonMesh};
@@ -65,7 +65,7 @@ fn check(recipe: &Recipe) {
 
 #[test]
 fn no_member_of_the_default_recipe_leaps_between_them() {
-    check(&recipe(1.0));
+    check(&quick(1.0));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Jobs that are stopped still end with a valid grid.
 
-use crate::promise::{check, model, recipe};
+use crate::promise::{check, model, quick};
 use gridshell::job::Job;
 use gridshell::pipeline;
 use gridshell::recipe::Recipe;
@@ -21,14 +21,14 @@ fn a_job_cancelled_before_its_start_gives_a_valid_grid() {
     for (name, length) in [("hexagon", 0.5), ("saddle", 3.0), ("great-court", 6.0)] {
         let job = Job::default();
         job.cancel();
-        stopped(name, &recipe(length), &job);
+        stopped(name, &quick(length), &job);
     }
 }
 
 #[test]
 fn a_tiny_time_limit_gives_a_valid_grid() {
     let job = Job::default().with_time_limit(Duration::from_millis(1));
-    stopped("saddle", &recipe(3.0), &job);
+    stopped("saddle", &quick(3.0), &job);
 }
 
 #[test]
@@ -42,6 +42,6 @@ fn a_job_cancelled_from_its_own_progress_stops_in_the_middle() {
         told.store(true, Ordering::Relaxed);
         stop.cancel();
     });
-    stopped("saddle", &recipe(2.0), &job);
+    stopped("saddle", &quick(2.0), &job);
     assert!(seen.load(Ordering::Relaxed), "no progress was told");
 }

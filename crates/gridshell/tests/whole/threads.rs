@@ -1,6 +1,6 @@
 //! The same surface, recipe and seed: the same grid, bit for bit, on any number of threads.
 
-use crate::promise::{model, paper, recipe};
+use crate::promise::{model, paper, quick};
 use gridshell::job::Job;
 use gridshell::pipeline;
 use gridshell::recipe::Recipe;
@@ -25,12 +25,12 @@ fn check(name: &str, recipe: &Recipe) {
 
 #[test]
 fn a_lattice_start_does_not_depend_on_threads() {
-    check("saddle", &recipe(3.0));
+    check("saddle", &quick(3.0));
 }
 
 #[test]
 fn a_bubble_start_does_not_depend_on_threads() {
-    check("torus", &recipe(3.0));
+    check("torus", &quick(3.0));
 }
 
 #[test]
