@@ -36,6 +36,9 @@ pub struct Starts {
 /// Draws of a lattice are judged after this many steps of balancing.
 const TRIAL_STEPS: usize = 3;
 
+/// Random bubbles start no nearer to a boundary bubble than this, over l0.
+const CLEAR: f64 = 0.6;
+
 /// Mean strain of a chart beyond which lattices laid on it are poor starts.
 const STRAINED: f64 = 0.03;
 
@@ -72,7 +75,7 @@ fn packing(surface: &Surface, length: f64, recipe: &Recipe, seed: u64, job: &Job
         pieces.iter().map(|p| pack::boundary::member_count(p, length)).collect();
     let boundary = pack::boundary::place(surface, &pieces, &counts, 0.0);
     let count = pack::interior_count(surface, boundary.len(), length, recipe.pack.k_n);
-    let interior = pack::scatter(surface, count, &mut rng);
+    let interior = pack::scatter(surface, count, &boundary, CLEAR * length, &mut rng);
     let mut bubbles = Bubbles { boundary, interior };
     let report = pack::settle(surface, &mut bubbles, length, &recipe.pack, job);
     Start { bubbles, seed, report: Some(report), grid: None }

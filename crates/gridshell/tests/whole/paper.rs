@@ -18,7 +18,8 @@ fn random_bubbles(surface: &Surface) -> Bubbles {
         pieces.iter().map(|p| pack::boundary::member_count(p, LENGTH)).collect();
     let boundary = pack::boundary::place(surface, &pieces, &counts, 0.0);
     let count = pack::interior_count(surface, boundary.len(), LENGTH, 1.0);
-    let interior = pack::scatter(surface, count, &mut fastrand::Rng::with_seed(5));
+    let interior =
+        pack::scatter(surface, count, &boundary, 0.6 * LENGTH, &mut fastrand::Rng::with_seed(5));
     Bubbles { boundary, interior }
 }
 

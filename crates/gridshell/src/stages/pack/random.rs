@@ -1,6 +1,7 @@
 //! A random start: points spread evenly by chance over the surface's area.
 
-use crate::surface::{Surface, SurfacePoint};
+use crate::surface::{ChainPoint, Surface, SurfacePoint};
+use glam::DVec3;
 
 /// Number of interior bubbles for an edge length, Eq. 1 with the boundary and the Euler characteristic
 /// accounted for: n = k_n A / (2 A0) - n_b / 2 + chi (the perfect hexagon of 61 nodes asks for this).
@@ -11,8 +12,18 @@ pub fn interior_count(surface: &Surface, boundary: usize, edge_length: f64, k_n:
     count.round().max(0.0) as usize
 }
 
-/// `count` random points, uniform over the carrier's area.
-pub fn scatter(surface: &Surface, count: usize, rng: &mut fastrand::Rng) -> Vec<SurfacePoint> {
+/// Draws of a point that keeps off the border, at most: a strip may have no such place.
+const MOST_DRAWS: usize = 50;
+
+/// `count` random points, uniform over the carrier's area but for those that would fall within `clear` metres
+/// of a boundary bubble: pressed against the border, they would stay there between two of its bubbles.
+pub fn scatter(
+    surface: &Surface,
+    count: usize,
+    boundary: &[ChainPoint],
+    clear: f64,
+    rng: &mut fastrand::Rng,
+) -> Vec<SurfacePoint> {
     let carrier = &surface.carrier;
     let mut sums = Vec::with_capacity(carrier.triangles.len());
     let mut sum = 0.0;
@@ -20,15 +31,31 @@ pub fn scatter(surface: &Surface, count: usize, rng: &mut fastrand::Rng) -> Vec<
         sum += carrier.triangle_area(t);
         sums.push(sum);
     }
+    let rim: Vec<DVec3> =
+        boundary.iter().map(|c| surface.loops[c.chain as usize].xyz(carrier, c.s)).collect();
+    let mut draw = || {
+        let at = rng.f64() * sum;
+        let triangle = sums.partition_point(|&s| s <= at).min(sums.len() - 1) as u32;
+        let (mut u, mut v) = (rng.f64(), rng.f64());
+        if u + v > 1.0 {
+            (u, v) = (1.0 - u, 1.0 - v);
+        }
+        SurfacePoint { triangle, bary: [1.0 - u - v, u, v] }
+    };
+    let near = |p: &SurfacePoint| {
+        let xyz = carrier.xyz(p);
+        rim.iter().any(|r| r.distance_squared(xyz) < clear * clear)
+    };
     (0..count)
         .map(|_| {
-            let at = rng.f64() * sum;
-            let triangle = sums.partition_point(|&s| s <= at).min(sums.len() - 1) as u32;
-            let (mut u, mut v) = (rng.f64(), rng.f64());
-            if u + v > 1.0 {
-                (u, v) = (1.0 - u, 1.0 - v);
+            let mut point = draw();
+            for _ in 1..MOST_DRAWS {
+                if !near(&point) {
+                    break;
+                }
+                point = draw();
             }
-            SurfacePoint { triangle, bary: [1.0 - u - v, u, v] }
+            point
         })
         .collect()
 }
