@@ -9,6 +9,7 @@
 
 use crate::grid::{Grid, Place};
 use crate::job::Job;
+use crate::math::conjugate::conjugate_gradients;
 use crate::surface::Surface;
 use glam::DVec3;
 
@@ -19,6 +20,9 @@ const REACH: f64 = 0.25;
 
 /// Halvings (and more) of a step that does not lower the energy.
 const BACK_OFFS: usize = 8;
+
+/// Conjugate-gradient steps in a Gauss-Newton step, at most.
+const SOLVER_STEPS: usize = 200;
 
 /// How to balance.
 #[derive(Clone, Copy, Debug)]
@@ -240,36 +244,12 @@ impl System {
         y
     }
 
-    /// Conjugate gradients, preconditioned by the diagonal.
     fn solve(&self, right: &[DVec3]) -> Vec<DVec3> {
-        let dot = |a: &[DVec3], b: &[DVec3]| a.iter().zip(b).map(|(x, y)| x.dot(*y)).sum::<f64>();
         let mut x = vec![DVec3::ZERO; right.len()];
-        let mut r = right.to_vec();
-        let precondition = |r: &[DVec3]| -> Vec<DVec3> {
-            r.iter().zip(&self.diagonal).map(|(v, d)| *v / *d).collect()
-        };
-        let mut z = precondition(&r);
-        let mut p = z.clone();
-        let mut rz = dot(&r, &z);
-        let enough = rz * self.accuracy * self.accuracy;
-        for _ in 0..200 {
-            if rz <= enough {
-                break;
-            }
-            let ap = self.apply(&p);
-            let alpha = rz / dot(&p, &ap);
-            for i in 0..x.len() {
-                x[i] += p[i] * alpha;
-                r[i] -= ap[i] * alpha;
-            }
-            z = precondition(&r);
-            let next = dot(&r, &z);
-            let beta = next / rz;
-            rz = next;
-            for i in 0..p.len() {
-                p[i] = z[i] + p[i] * beta;
-            }
-        }
+        let enough = |first: f64| first * self.accuracy * self.accuracy;
+        let (apply, dot) = (|v: &[DVec3]| self.apply(v), DVec3::dot);
+        let residual = right.to_vec();
+        conjugate_gradients(&mut x, residual, &self.diagonal, apply, dot, enough, SOLVER_STEPS);
         x
     }
 }

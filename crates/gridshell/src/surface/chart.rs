@@ -7,6 +7,7 @@
 //! still overlap itself (a spiral does), which a lattice does not mind.
 
 use super::{Carrier, Chain};
+use crate::math::conjugate::conjugate_gradients;
 use crate::math::trig::{atan2, cos, sin};
 use glam::{DMat2, DVec2, DVec3};
 
@@ -228,34 +229,11 @@ impl Laplacian {
 
     /// At most `steps` conjugate-gradient steps on L x = right, both coordinates at once, from `x`.
     fn solve(&self, right: &[DVec2], x: &mut [DVec2], steps: usize) {
-        let dot = |a: &[DVec2], b: &[DVec2]| a.iter().zip(b).map(|(p, q)| p.dot(*q)).sum::<f64>();
-        let ax = self.apply(x);
-        let mut r: Vec<DVec2> = right.iter().zip(&ax).map(|(b, a)| *b - *a).collect();
-        let scaled = |r: &[DVec2]| -> Vec<DVec2> {
-            r.iter().zip(&self.diagonal).map(|(v, d)| *v / *d).collect()
-        };
-        let mut z = scaled(&r);
-        let mut p = z.clone();
-        let mut rz = dot(&r, &z);
+        let residual: Vec<DVec2> = right.iter().zip(self.apply(x)).map(|(b, a)| *b - a).collect();
         // Against the right side too: a good start is at rounding level already.
-        let enough = 1e-12 * dot(right, &scaled(right)).max(rz);
-        for _ in 0..steps {
-            if rz <= enough {
-                break;
-            }
-            let ap = self.apply(&p);
-            let alpha = rz / dot(&p, &ap);
-            for i in 0..x.len() {
-                x[i] += p[i] * alpha;
-                r[i] -= ap[i] * alpha;
-            }
-            z = scaled(&r);
-            let next = dot(&r, &z);
-            let beta = next / rz;
-            rz = next;
-            for i in 0..p.len() {
-                p[i] = z[i] + p[i] * beta;
-            }
-        }
+        let whole: f64 = right.iter().zip(&self.diagonal).map(|(v, d)| v.dot(*v / *d)).sum();
+        let enough = |first: f64| 1e-12 * whole.max(first);
+        let apply = |v: &[DVec2]| self.apply(v);
+        conjugate_gradients(x, residual, &self.diagonal, apply, DVec2::dot, enough, steps);
     }
 }
