@@ -18,6 +18,13 @@ const MASS: f64 = K_F * K_F / (4.0 * 0.49 * K_B);
 /// Relax by damped dynamics until the largest move in a step is below `options.settled` l0.
 pub fn net(surface: &Surface, grid: &mut Grid, options: &Relax, job: &Job) -> Report {
     let edges: Vec<(u32, u32)> = grid.mesh.edges().collect();
+    // Springs know chords only: across a sharp bend they would pull its nodes off it and leap from sheet to
+    // sheet, where the paper says that its method fails. Those nodes hold still.
+    let mut held = vec![false; grid.xyz.len()];
+    for (a, b) in grid.sharp_members(surface) {
+        held[a as usize] = true;
+        held[b as usize] = true;
+    }
     // Twelve spring ends bound the stiffest mode of a node; a third of the stability limit.
     let dt = 0.7 / (12.0 * K_B / MASS).sqrt();
     let mut velocity = vec![DVec3::ZERO; grid.xyz.len()];
@@ -33,7 +40,7 @@ pub fn net(surface: &Surface, grid: &mut Grid, options: &Relax, job: &Job) -> Re
             force[b as usize] -= pull;
         }
         report.last_move = 0.0;
-        for i in 0..grid.xyz.len() {
+        for i in (0..grid.xyz.len()).filter(|&i| !held[i]) {
             let before = velocity[i];
             let along = grid.tangential(surface, i, force[i] - before * K_F);
             velocity[i] = grid.tangential(surface, i, before) + along / MASS * dt;
