@@ -30,8 +30,6 @@ const CARRIER_EDGE: f64 = 0.5;
 const CARRIER_CHORD: f64 = 2e-3;
 /// Nodes of a grid whose edge length nobody gave.
 const SENSIBLE_NODES: usize = 1000;
-/// Beyond this many nodes a wanted length is taken for a slip of the unit.
-const MOST_NODES: f64 = 2e6;
 
 /// Lay a grid on `model`.
 ///
@@ -195,7 +193,7 @@ fn sampling(length: f64, recipe: &Recipe) -> Sampling {
 /// The wanted length in metres: as given, or from the number of nodes, or a sensible one.
 ///
 /// # Errors
-/// [`Error::Option`] when it would make more nodes than anyone wants, [`Error::Surface`] as
+/// [`Error::Option`] as [`Recipe::check_edge_length`], [`Error::Surface`] as
 /// [`Model::surface`].
 pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
     let size = model.size();
@@ -213,13 +211,7 @@ pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
             .find(|b| b.name == surface.name)
             .map_or_else(|| length_for(&surface, SENSIBLE_NODES), |b| b.edge_length),
     };
-    let nodes = surface.area / (0.5 * 3f64.sqrt() * length * length);
-    if nodes > MOST_NODES {
-        return Err(Error::Option(format!(
-            "an edge length of {length} m makes about {nodes:.0} nodes on {:.0} m2; is it in metres?",
-            surface.area
-        )));
-    }
+    Recipe::check_edge_length(length, surface.area)?;
     Ok(length)
 }
 

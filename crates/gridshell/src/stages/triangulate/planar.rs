@@ -1,7 +1,7 @@
 //! The quick way: where the surface has a chart that nowhere overlaps, Delaunay in the chart's plane.
 //!
 //! A chart distorts lengths by some per cent, so edges differ here and there from the intrinsic Delaunay ones;
-//! what follows flips edges anyway. Ten to fifty times as fast as taking the carrier apart.
+//! what follows flips edges anyway. Far less work than taking the carrier apart.
 
 use crate::bubbles::Bubbles;
 use crate::grid::{Grid, Place};
