@@ -19,10 +19,10 @@ const LEAST_SHAPE: f64 = 0.55;
 /// Rounds, each begun with the whole grid in balance.
 const ROUNDS: usize = 6;
 /// Temperatures, first and last, as shares of the merit.
-const TEMPERATURE: [f64; 2] = [0.004, 0.0003];
+const TEMPERATURE: [f64; 2] = [0.7, 0.05];
 static TEMP: std::sync::LazyLock<[f64; 2]> = std::sync::LazyLock::new(|| std::env::var("TEMP").ok().map_or(TEMPERATURE, |s| { let v: Vec<f64> = s.split(',').map(|x| x.parse().unwrap()).collect(); [v[0], v[1]] }));
 /// What an operation may at best win by lengths and lines, as a share of the merit.
-const HOPE: f64 = 0.04;
+const HOPE: f64 = 4.0;
 
 static HP: std::sync::LazyLock<f64> = std::sync::LazyLock::new(|| std::env::var("HP").ok().map_or(HOPE, |s| s.parse().unwrap()));
 /// Polish `state` by `trials` trials.
@@ -68,6 +68,7 @@ struct Polish<'a, 'b> {
     total: Sums,
     merit: f64,
     temperature: f64,
+    unit: f64,
     best: (f64, crate::grid::Grid),
 }
 
@@ -80,6 +81,7 @@ impl<'a, 'b> Polish<'a, 'b> {
             total: Sums::default(),
             merit: 0.0,
             temperature: 0.0,
+            unit: 0.0,
             best: (f64::NEG_INFINITY, state.grid.clone()),
             state,
         }
@@ -98,14 +100,16 @@ impl<'a, 'b> Polish<'a, 'b> {
         let state = &*self.state;
         self.total = Sums::whole(&state.grid, state.surface, state.length, state.lambda);
         self.merit = self.total.merit(state.lambda);
+        let more = Sums { residual: self.total.residual + 1.0 - state.lambda, ..self.total };
+        self.unit = self.merit - more.merit(state.lambda);
     }
 
     /// Try a few operations near an irregular node; whether they came as far as being balanced.
     fn trial(&mut self, report: &mut Report) -> bool {
-        let bar = self.merit + self.best.0 * self.temperature * ln(self.rng.f64().max(1e-300));
+        let bar = self.merit + self.unit * self.temperature * ln(self.rng.f64().max(1e-300));
         let Some(plan) = self.plan() else { return false };
         let hoped = Sums { residual: self.total.residual + plan.change, ..self.total };
-        if hoped.merit(self.state.lambda) + self.best.0 * *HP < bar {
+        if hoped.merit(self.state.lambda) + self.unit * *HP < bar {
             return false;
         }
         let kept = self.carry_out(&plan).filter(|(after, _)| after.merit(self.state.lambda) >= bar);
