@@ -18,6 +18,9 @@ pub struct Recipe {
     pub seed: u64,
     /// Boundary vertices where the boundary turns by more than this are corners (fixed nodes), degrees.
     pub corner_angle_deg: f64,
+    /// How far rows of members follow the border: 0 is one lattice, fitted; 1 lets a row run along every border;
+    /// between, along those that the lattice lies parallel to, within 30 degrees times this.
+    pub border: f64,
     /// Options of packing.
     pub pack: Pack,
     /// Options of regularizing.
@@ -137,6 +140,7 @@ impl Default for Recipe {
             nodes: None,
             seed: 1,
             corner_angle_deg: 30.0,
+            border: 0.5,
             pack: Pack::default(),
             regularize: Regularize::default(),
             relax: Relax::default(),
@@ -243,6 +247,7 @@ impl Recipe {
             within("nodes", nodes as f64, 3.0, MAX_NODES)?;
         }
         within("corner_angle_deg", self.corner_angle_deg, 0.0, 180.0)?;
+        within("border", self.border, 0.0, 1.0)?;
         within("measure.lambda", self.measure.lambda, 0.0, 1.0)?;
 
         let pack = &self.pack;

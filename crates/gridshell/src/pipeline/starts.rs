@@ -110,7 +110,7 @@ fn lattices(
             if k % 2 == 0 {
                 lattice.angle = chart.border_direction(&surface.loops, rng.f64());
             }
-            let bubbles = lattice.bubbles(surface, chart, length, recipe.pack.k_n);
+            let bubbles = lattice.bubbles(surface, chart, length, recipe.pack.k_n, recipe.border);
             let start = connect(surface, chart, &bubbles)?;
             let mut grid = start.clone();
             balance(surface, &mut grid, &trial, &Job::default());
