@@ -43,7 +43,7 @@ pub struct Generate {
     /// Seed of every random choice.
     #[arg(short, long, value_name = "S")]
     pub seed: Option<u64>,
-    /// How far rows of members follow the border: 0 (one lattice, fitted) to 1 (rows along every border).
+    /// What the border is worth against the lines inside: 0 (one lattice, cut off) to 1 (rows along every border).
     #[arg(long, value_name = "0..1", allow_negative_numbers = true)]
     pub border: Option<f64>,
     /// Method: `default`, or `paper` for the method as printed.

@@ -1,9 +1,10 @@
 //! The balance of a grid: Gauss-Newton on the spread of lengths and the bending of lines.
 //!
-//! Minimises  sum over members (l / l_mean - 1)^2
+//! Minimises  sum over members w (l / l_mean - 1)^2
 //!          + s * sum over regular interior nodes and their three lines |(x_j + x_(j+3) - 2 x_i)_t|^2 / l_mean^2
 //! where t is the part in the tangent plane: a line that bends only with the surface costs nothing, and when
-//! all three lines of a node run straight its opposite angles are equal (the two parts of Eq. 28 to 30).
+//! all three lines of a node run straight its opposite angles are equal (the two parts of Eq. 28 to 30). The
+//! weight w is 1, or more at members that touch the border, whose panels make up for where no lattice line ends.
 //! Nodes move in their tangent plane, boundary nodes along the boundary, corners not at all: the linear
 //! system is solved for 3D moves projected to those spaces, by preconditioned conjugate gradients.
 
@@ -29,6 +30,8 @@ const SOLVER_STEPS: usize = 200;
 pub struct Options {
     /// Weight s of straightness.
     pub straightness: f64,
+    /// Weight w of the lengths of members that touch the border.
+    pub border: f64,
     /// Balanced when the largest move in a step falls below this share of the mean length.
     pub settled: f64,
     /// Most Gauss-Newton steps.
@@ -95,6 +98,8 @@ type Line = [u32; 3];
 /// The linearised problem at the present positions.
 struct System {
     edges: Vec<(u32, u32)>,
+    /// Weight of each edge's length.
+    weights: Vec<f64>,
     lines: Vec<Line>,
     straightness: f64,
     mean: f64,
@@ -140,9 +145,12 @@ impl System {
         // Lines run on past a sharp bend without being held straight there.
         lines.retain(|&[i, j, k]| !is_sharp(i, j) && !is_sharp(i, k));
         let mut diagonal = vec![DAMPING; mesh.slots()];
-        for &(a, b) in &edges {
-            diagonal[a as usize] += 0.5;
-            diagonal[b as usize] += 0.5;
+        let at_border = |&(a, b): &(u32, u32)| mesh.is_boundary(a) || mesh.is_boundary(b);
+        let weights: Vec<f64> =
+            edges.iter().map(|e| if at_border(e) { options.border } else { 1.0 }).collect();
+        for (&(a, b), w) in edges.iter().zip(&weights) {
+            diagonal[a as usize] += 0.5 * w;
+            diagonal[b as usize] += 0.5 * w;
         }
         for &[i, j, k] in &lines {
             diagonal[i as usize] += 4.0 * straightness;
@@ -151,6 +159,7 @@ impl System {
         }
         System {
             edges,
+            weights,
             lines,
             straightness,
             mean: 0.0,
@@ -179,7 +188,8 @@ impl System {
     fn energy(&self, surface: &Surface, grid: &Grid) -> f64 {
         let lengths = self.lengths(surface, grid);
         let mean = lengths.iter().sum::<f64>() / self.edges.len() as f64;
-        let spread: f64 = lengths.iter().map(|l| (l - mean) * (l - mean)).sum();
+        let spread: f64 =
+            lengths.iter().zip(&self.weights).map(|(l, w)| w * (l - mean) * (l - mean)).sum();
         let bends: f64 = self
             .lines
             .iter()
@@ -203,8 +213,8 @@ impl System {
             .collect();
         self.freedom = (0..grid.xyz.len()).map(|i| freedom(surface, grid, i)).collect();
         let mut gradient = vec![DVec3::ZERO; grid.xyz.len()];
-        for ((&(a, b), &l), &u) in self.edges.iter().zip(&lengths).zip(&self.directions) {
-            let pull = u * (l - self.mean);
+        for (k, &(a, b)) in self.edges.iter().enumerate() {
+            let pull = self.directions[k] * (self.weights[k] * (lengths[k] - self.mean));
             gradient[a as usize] += pull;
             gradient[b as usize] -= pull;
         }
@@ -229,8 +239,9 @@ impl System {
 
     fn apply(&self, x: &[DVec3]) -> Vec<DVec3> {
         let mut y: Vec<DVec3> = x.iter().map(|&v| v * DAMPING).collect();
-        for (&(a, b), &u) in self.edges.iter().zip(&self.directions) {
-            let f = u * (x[b as usize] - x[a as usize]).dot(u);
+        for (k, &(a, b)) in self.edges.iter().enumerate() {
+            let u = self.directions[k];
+            let f = u * (self.weights[k] * (x[b as usize] - x[a as usize]).dot(u));
             y[a as usize] -= f;
             y[b as usize] += f;
         }

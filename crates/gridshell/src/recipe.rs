@@ -18,8 +18,9 @@ pub struct Recipe {
     pub seed: u64,
     /// Boundary vertices where the boundary turns by more than this are corners (fixed nodes), degrees.
     pub corner_angle_deg: f64,
-    /// How far rows of members follow the border: 0 is one lattice, fitted; 1 lets a row run along every border;
-    /// between, along those that the lattice lies parallel to, within 30 degrees times this.
+    /// What the border is worth. From 0 on, panels and members at the border weigh more against the lines inside
+    /// ([`Recipe::border_weight`]). Above 0.5 rows of members follow the borders that the lattice lies nearly
+    /// parallel to ([`Recipe::row_angle`]), at 1 all borders.
     pub border: f64,
     /// Options of packing.
     pub pack: Pack,
@@ -140,7 +141,7 @@ impl Default for Recipe {
             nodes: None,
             seed: 1,
             corner_angle_deg: 30.0,
-            border: 0.5,
+            border: 0.25,
             pack: Pack::default(),
             regularize: Regularize::default(),
             relax: Relax::default(),
@@ -227,6 +228,20 @@ impl Recipe {
             }
         }
         Ok(recipe)
+    }
+}
+
+impl Recipe {
+    /// Weight of the lengths of members that touch the border against others: 1 to 5.
+    pub fn border_weight(&self) -> f64 {
+        1.0 + 4.0 * self.border
+    }
+
+    /// Rows follow the borders that the lattice is off by at most this angle, radians; None where there are no
+    /// rows.
+    pub fn row_angle(&self) -> Option<f64> {
+        // A lattice has a line within thirty degrees of any direction.
+        (self.border > 0.5).then(|| (2.0 * self.border - 1.0) * std::f64::consts::FRAC_PI_6)
     }
 }
 

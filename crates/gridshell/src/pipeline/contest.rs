@@ -86,7 +86,7 @@ pub fn relax(
         .into_par_iter()
         .map(|Candidate { start, grid: before, report: regularized, .. }| {
             let mut grid = before.clone();
-            let relaxed = relax::relax(surface, &mut grid, &recipe.relax, job);
+            let relaxed = relax::relax(surface, &mut grid, recipe, job);
             let points = score(&compare(&grid, surface, length, &recipe.measure));
             Winner { start, before, regularized, grid, relaxed, points }
         })
@@ -98,6 +98,7 @@ pub fn relax(
 fn settle(surface: &Surface, grid: &mut Grid, recipe: &Recipe) {
     let options = balance::Options {
         straightness: recipe.relax.straightness,
+        border: recipe.border_weight(),
         settled: 1e-3,
         max_steps: TRIAL_STEPS,
         accuracy: 0.05,

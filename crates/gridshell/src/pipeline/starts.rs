@@ -93,6 +93,7 @@ fn lattices(
     let draws = recipe.pack.draws.max(1);
     let trial = balance::Options {
         straightness: recipe.relax.straightness,
+        border: recipe.border_weight(),
         settled: 1e-3,
         max_steps: TRIAL_STEPS,
         accuracy: 0.1,
@@ -110,7 +111,8 @@ fn lattices(
             if k % 2 == 0 {
                 lattice.angle = chart.border_direction(&surface.loops, rng.f64());
             }
-            let bubbles = lattice.bubbles(surface, chart, length, recipe.pack.k_n, recipe.border);
+            let bubbles =
+                lattice.bubbles(surface, chart, length, recipe.pack.k_n, recipe.row_angle());
             let start = connect(surface, chart, &bubbles)?;
             let mut grid = start.clone();
             balance(surface, &mut grid, &trial, &Job::default());

@@ -37,14 +37,14 @@ impl Lattice {
     }
 
     /// The bubbles of this lattice on `surface` for members of `length` metres, `k_n` times as many as Eq. 1
-    /// asks for; rows along the `border` as the recipe's option of that name says.
+    /// asks for, and with a row along the border wherever the lattice is off by at most `row_angle`, radians.
     pub fn bubbles(
         &self,
         surface: &Surface,
         chart: &Chart,
         length: f64,
         k_n: f64,
-        border: f64,
+        row_angle: Option<f64>,
     ) -> Bubbles {
         let pieces = pieces(surface);
         let count = |(p, extra): (_, &i64)| {
@@ -53,7 +53,7 @@ impl Lattice {
         };
         let counts: Vec<usize> = pieces.iter().zip(&self.extra).map(count).collect();
         let boundary = place(surface, &pieces, &counts, self.slide);
-        let rows = rows(surface, chart, &boundary, self.angle, length, border);
+        let rows = rows(surface, chart, &boundary, self.angle, length, row_angle);
         let rim = self.rim(surface, chart, &boundary, &rows, length);
         let wanted = interior_count(surface, boundary.len(), length, k_n) as f64;
         let wanted = wanted - rows.bubbles.len() as f64;

@@ -6,7 +6,7 @@ use crate::math::trig::{atan2, cos, sin};
 use crate::surface::{ChainPoint, Surface, SurfacePoint, chart::Chart};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
-use std::f64::consts::{FRAC_PI_3, FRAC_PI_6, PI};
+use std::f64::consts::{FRAC_PI_3, PI};
 
 /// Height of an equilateral triangle over its side.
 pub const HEIGHT: f64 = 0.866_025_403_784_438_6;
@@ -28,30 +28,28 @@ pub struct Rows {
     pub along: Vec<bool>,
 }
 
-/// Rows along the boundary members that a lattice at `angle` in the chart runs parallel to, to within `border`
-/// times the thirty degrees that it can be off at most; `length` is a member's in the chart.
+/// Rows along the boundary members that a lattice at `angle` in the chart is off by at most `row_angle`, radians;
+/// `length` is a member's in the chart.
 pub fn rows(
     surface: &Surface,
     chart: &Chart,
     boundary: &[ChainPoint],
     angle: f64,
     length: f64,
-    border: f64,
+    row_angle: Option<f64>,
 ) -> Rows {
     let mut rows = Rows::default();
-    if border == 0.0 {
+    let Some(row_angle) = row_angle else {
         rows.along = vec![false; boundary.len()];
         return rows;
-    }
+    };
     let clear = Rim::of_border(surface, chart, |_, _| CLEAR * length);
     let mut kept: BTreeMap<[i64; 2], Vec<DVec2>> = BTreeMap::new();
     for nodes in boundary.chunk_by(|a, b| a.chain == b.chain) {
         let members: Vec<Member> =
             (0..nodes.len()).map(|k| Member::new(surface, chart, nodes, k)).collect();
-        let along: Vec<bool> = members
-            .iter()
-            .map(|m| off_lattice(m.heading - angle) <= border * FRAC_PI_6 * (1.0 + 1e-9))
-            .collect();
+        let along: Vec<bool> =
+            members.iter().map(|m| off_lattice(m.heading - angle) <= row_angle + 1e-9).collect();
         for point in row(surface, chart, &members, &along, length) {
             let uv = chart.at(&surface.carrier, &point);
             if clear.is_clear(uv) && is_apart(&mut kept, uv, APART * length) {
@@ -92,7 +90,13 @@ impl Member {
     }
 
     /// The place `reach` from `from`, at `angle` to the left of this member.
-    fn beside(&self, surface: &Surface, from: &SurfacePoint, angle: f64, reach: f64) -> SurfacePoint {
+    fn beside(
+        &self,
+        surface: &Surface,
+        from: &SurfacePoint,
+        angle: f64,
+        reach: f64,
+    ) -> SurfacePoint {
         let ahead = self.chord.normalize_or_zero();
         let left = surface.carrier.normal(from).cross(ahead);
         surface.carrier.trace(from, (ahead * cos(angle) + left * sin(angle)) * reach)
@@ -165,4 +169,78 @@ fn is_apart(kept: &mut BTreeMap<[i64; 2], Vec<DVec2>>, uv: DVec2, gap: f64) -> b
         kept.entry([x, y]).or_default().push(uv);
     }
     !crowded
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stages::pack::boundary::{member_count, pieces, place};
+    use crate::surface::{Sampling, builtin};
+
+    /// Rows on a built-in surface with equal boundary members of about `length`, and their distances to the ends
+    /// of the nearest member, over that member.
+    fn row_on(name: &str, length: f64, angle: f64, row_angle: f64) -> (Rows, Vec<[f64; 2]>) {
+        let sampling =
+            Sampling { max_edge: 0.5 * length, chord_error: 2e-3 * length, corner_angle: 0.5 };
+        let surface = builtin::model(name).expect("built in").surface(&sampling).expect(name);
+        let chart =
+            Chart::flatten(&surface.carrier, &surface.loops, surface.euler_characteristic())
+                .expect("it has a chart");
+        let pieces = pieces(&surface);
+        let counts: Vec<usize> = pieces.iter().map(|p| member_count(p, length)).collect();
+        let boundary = place(&surface, &pieces, &counts, 0.0);
+        let rows = rows(&surface, &chart, &boundary, angle, length, Some(row_angle));
+        let nodes: Vec<DVec3> = boundary
+            .iter()
+            .map(|b| surface.loops[b.chain as usize].xyz(&surface.carrier, b.s))
+            .collect();
+        let nearest = |p: &SurfacePoint| {
+            let at = surface.carrier.xyz(p);
+            let mut distances: Vec<f64> = nodes.iter().map(|n| n.distance(at) / length).collect();
+            distances.sort_by(f64::total_cmp);
+            [distances[0], distances[1]]
+        };
+        let near = rows.bubbles.iter().map(nearest).collect();
+        (rows, near)
+    }
+
+    #[test]
+    fn panels_between_border_and_row_are_near_equilateral() {
+        let (rows, near) = row_on("great-court", 2.12, 0.0, 0.6);
+        assert!(rows.along.iter().all(|&a| a));
+        // A panel for every member but for what the four corners and the hole's opening take and give.
+        assert!(rows.bubbles.len().abs_diff(rows.along.len()) < 12, "{}", rows.bubbles.len());
+        let good = near.iter().filter(|d| d.iter().all(|x| (x - 1.0).abs() < 0.1)).count();
+        assert!(good as f64 > 0.9 * near.len() as f64, "{good} of {}", near.len());
+    }
+
+    #[test]
+    fn rows_follow_only_borders_that_the_lattice_is_parallel_to() {
+        // Of a hexagon's sides all lie along the lattice or none.
+        for (angle, parallel) in [(0.0, true), (0.5 * FRAC_PI_3, false)] {
+            let (rows, _) = row_on("hexagon", 0.5, angle, 0.1);
+            assert!(rows.along.iter().all(|&a| a == parallel), "{angle}");
+            assert_eq!(rows.bubbles.is_empty(), !parallel);
+        }
+    }
+
+    #[test]
+    fn the_row_in_a_hexagon_is_its_next_ring() {
+        // Eight members a side: the next ring has six times seven nodes, on the lattice.
+        let (rows, near) = row_on("hexagon", 0.5, 0.0, 0.1);
+        assert_eq!(rows.bubbles.len(), 42);
+        for [a, b] in near {
+            assert!((a - 1.0).abs() < 1e-6 && (b - 1.0).abs() < 1e-6, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn a_lattice_is_at_most_thirty_degrees_off() {
+        for k in -40..40 {
+            let angle = f64::from(k) * 0.1;
+            assert!(off_lattice(angle) <= FRAC_PI_3 / 2.0 + 1e-12);
+            assert!((off_lattice(angle) - off_lattice(angle + FRAC_PI_3)).abs() < 1e-12);
+        }
+        assert!((off_lattice(0.1) - 0.1).abs() < 1e-15 && (off_lattice(-0.1) - 0.1).abs() < 1e-15);
+    }
 }
