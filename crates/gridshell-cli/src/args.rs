@@ -43,6 +43,9 @@ pub struct Generate {
     /// Seed of every random choice.
     #[arg(short, long, value_name = "S")]
     pub seed: Option<u64>,
+    /// What the border is worth against the lines inside: 0 (one lattice, cut off) to 1 (rows along every border).
+    #[arg(long, value_name = "0..1", allow_negative_numbers = true)]
+    pub border: Option<f64>,
     /// Method: `default`, or `paper` for the method as printed.
     #[arg(short, long, value_name = "NAME")]
     pub method: Option<String>,

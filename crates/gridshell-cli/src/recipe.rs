@@ -22,6 +22,9 @@ pub fn from_args(args: &Generate) -> Result<Recipe, Failure> {
     if let Some(seed) = args.seed {
         recipe.seed = seed;
     }
+    if let Some(border) = args.border {
+        recipe.border = border;
+    }
     recipe.validate()?;
     Ok(recipe)
 }

@@ -82,8 +82,13 @@ fn stages(criterion: &mut Criterion) {
                 BatchSize::LargeInput,
             );
         });
-        let options =
-            balance::Options { straightness: 0.3, settled: 1e-6, max_steps: 10, accuracy: 1e-3 };
+        let options = balance::Options {
+            straightness: 0.3,
+            border: 2.0,
+            settled: 1e-6,
+            max_steps: 10,
+            accuracy: 1e-3,
+        };
         group.bench_function(id("balance 10 steps"), |b| {
             b.iter_batched_ref(
                 || grid.clone(),

@@ -18,6 +18,10 @@ pub struct Recipe {
     pub seed: u64,
     /// Boundary vertices where the boundary turns by more than this are corners (fixed nodes), degrees.
     pub corner_angle_deg: f64,
+    /// What the border is worth. From 0 on, panels and members at the border weigh more against the lines inside
+    /// ([`Recipe::border_weight`]). Above 0.5 rows of members follow the borders that the lattice lies nearly
+    /// parallel to ([`Recipe::row_angle`]), at 1 all borders.
+    pub border: f64,
     /// Options of packing.
     pub pack: Pack,
     /// Options of regularizing.
@@ -80,8 +84,10 @@ pub struct Regularize {
     pub most_trials: usize,
     /// Grids searched side by side; the best is kept.
     pub candidates: usize,
-    /// How many of them, the best, are relaxed to the end.
-    pub finalists: usize,
+    /// Heats of polishing: how many candidates, the best, come through to it, and trials per irregular node.
+    pub heats: Vec<[usize; 2]>,
+    /// Trials of one grid in one heat at most.
+    pub most_polish: usize,
     /// Weight w of the residual R in the search's energy, sum of (l / l0 - 1)^2 + w R.
     pub residual_weight: f64,
     /// First and last temperature of the search, in units of that energy.
@@ -137,6 +143,7 @@ impl Default for Recipe {
             nodes: None,
             seed: 1,
             corner_angle_deg: 30.0,
+            border: 0.25,
             pack: Pack::default(),
             regularize: Regularize::default(),
             relax: Relax::default(),
@@ -171,7 +178,8 @@ impl Default for Regularize {
             trials: 6000,
             most_trials: 240_000,
             candidates: 16,
-            finalists: 4,
+            heats: vec![[16, 50], [6, 150], [2, 500]],
+            most_polish: 40_000,
             residual_weight: 0.6,
             temperature: [0.15, 0.03],
         }
@@ -226,6 +234,20 @@ impl Recipe {
     }
 }
 
+impl Recipe {
+    /// Weight of the lengths of members that touch the border against others: 1 to 5.
+    pub fn border_weight(&self) -> f64 {
+        1.0 + 4.0 * self.border
+    }
+
+    /// Rows follow the borders that the lattice is off by at most this angle, radians; None where there are no
+    /// rows.
+    pub fn row_angle(&self) -> Option<f64> {
+        // A lattice has a line within thirty degrees of any direction.
+        (self.border > 0.5).then(|| (2.0 * self.border - 1.0) * std::f64::consts::FRAC_PI_6)
+    }
+}
+
 /// More nodes than this are refused: time and memory would run out first.
 const MAX_NODES: f64 = 2e6;
 
@@ -243,6 +265,7 @@ impl Recipe {
             within("nodes", nodes as f64, 3.0, MAX_NODES)?;
         }
         within("corner_angle_deg", self.corner_angle_deg, 0.0, 180.0)?;
+        within("border", self.border, 0.0, 1.0)?;
         within("measure.lambda", self.measure.lambda, 0.0, 1.0)?;
 
         let pack = &self.pack;

@@ -30,6 +30,9 @@ pub(super) struct System {
     bends: bool,
     /// Number of members.
     members: f64,
+    /// Weight of the lengths of members at the border, and which nodes are there.
+    border: f64,
+    at_border: Vec<bool>,
     /// Where row i begins; it has the neighbours in ring order, then as many nodes across them.
     starts: Vec<usize>,
     columns: Vec<u32>,
@@ -73,6 +76,8 @@ impl System {
             accuracy: options.accuracy,
             bends: !sharp.is_empty(),
             members: mesh.edge_count() as f64,
+            border: options.border,
+            at_border: (0..mesh.slots() as u32).map(|v| mesh.is_boundary(v)).collect(),
             blocks: vec![[0.0; 4]; columns.len()],
             starts,
             columns,
@@ -88,6 +93,11 @@ impl System {
     fn row(&self, i: usize) -> (&[u32], &[u32]) {
         let row = &self.columns[self.starts[i]..self.starts[i + 1]];
         row.split_at(row.len() / 2)
+    }
+
+    /// Weight of the length of a member.
+    fn weight(&self, i: usize, j: usize) -> f64 {
+        if self.at_border[i] || self.at_border[j] { self.border } else { 1.0 }
     }
 
     /// Normals of all nodes where lengths need them.
@@ -131,9 +141,10 @@ impl System {
         let about = sum(self.held.len(), |r| {
             r.map(|i| {
                 let ring = self.row(i).0;
-                let later = ring.iter().filter(|&&j| j as usize > i);
-                let spread: f64 =
-                    later.map(|&j| (members.length(i, j as usize) - self.mean).powi(2)).sum();
+                let later = ring.iter().map(|&j| j as usize).filter(|&j| j > i);
+                let spread: f64 = later
+                    .map(|j| self.weight(i, j) * (members.length(i, j) - self.mean).powi(2))
+                    .sum();
                 spread + self.straightness * self.bend_energy(members, i, ring)
             })
             .sum()
@@ -192,9 +203,10 @@ impl System {
             let other = &self.frames[j as usize];
             let (length, u) = members.span(i, j as usize);
             let (a, b) = (in_frame(frame, u), in_frame(other, u));
-            right += a * (length - self.mean);
-            diagonal += outer(a, a);
-            let mut block = -outer(a, b);
+            let w = self.weight(i, j as usize);
+            right += a * (w * (length - self.mean));
+            diagonal += outer(a, a) * w;
+            let mut block = outer(a, b) * -w;
             let turn = between(frame, other);
             if self.held[i] >> (k % 3) & 1 == 1 {
                 block -= turn * (2.0 * weight);

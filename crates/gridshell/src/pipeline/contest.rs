@@ -7,7 +7,8 @@ use crate::grid::Grid;
 use crate::job::Job;
 use crate::merit::Sums;
 use crate::recipe::{Recipe, RegularizeMethod};
-use crate::stages::measure::bridging_members;
+use crate::run::CandidateReport;
+use crate::stages::measure::{Border, bridging_members};
 use crate::stages::{regularize, relax, triangulate};
 use crate::surface::Surface;
 use rayon::prelude::*;
@@ -23,10 +24,9 @@ pub struct Candidate {
     pub grid: Grid,
     /// What regularizing did.
     pub report: regularize::Report,
-    /// What its grid was measured by.
-    pub sums: Sums,
     /// How many heats it came through.
     pub heats: usize,
+    sums: Sums,
     merit: f64,
 }
 
@@ -107,7 +107,7 @@ pub fn relax(
         .into_par_iter()
         .map(|c| {
             let mut grid = c.grid.clone();
-            let relaxed = relax::relax(surface, &mut grid, &recipe.relax, job);
+            let relaxed = relax::relax(surface, &mut grid, recipe, job);
             let sums = Sums::whole(&grid, surface, length, recipe.measure.lambda);
             Winner {
                 start: c.start,
@@ -148,9 +148,36 @@ impl Candidate {
     }
 }
 
+/// The table of all candidates, the winner's first.
+pub fn table(
+    candidates: &[Candidate],
+    winner: usize,
+    starts: &[Start],
+    recipe: &Recipe,
+) -> Vec<CandidateReport> {
+    let report = |c: &Candidate| CandidateReport {
+        seed: starts[c.start].seed,
+        start: starts[c.start].kind(),
+        heats: c.heats,
+        merit: c.merit,
+        fluency: c.sums.fluency(recipe.measure.lambda),
+        mu: c.sums.mu(),
+        delta_deg: c.sums.delta_deg(),
+        cv: c.sums.members.cv(),
+        mean_length_ratio: c.sums.members.mean(),
+        border: Border {
+            shape_mean: c.sums.border_shape_mean(),
+            edge_length_cv: c.sums.border_members.cv(),
+        },
+    };
+    let (kept, left): (Vec<_>, Vec<_>) = candidates.iter().partition(|c| c.start == winner);
+    kept.into_iter().chain(left).map(report).collect()
+}
+
 fn settle(surface: &Surface, grid: &mut Grid, recipe: &Recipe) {
     let options = balance::Options {
         straightness: recipe.relax.straightness,
+        border: recipe.border_weight(),
         settled: 1e-3,
         max_steps: TRIAL_STEPS,
         accuracy: 0.05,

@@ -6,7 +6,7 @@
 //! to mesh parameterization*, 2008). Only for one connected piece of genus 0 with a boundary; a chart may
 //! still overlap itself (a spiral does), which a lattice does not mind.
 
-use super::{Carrier, Chain};
+use super::{Carrier, Chain, ChainPoint, Surface, SurfacePoint};
 use crate::math::conjugate::conjugate_gradients;
 use crate::math::trig::{atan2, cos, sin};
 use glam::{DMat2, DVec2, DVec3};
@@ -82,6 +82,20 @@ impl Chart {
     /// Corners of carrier triangle `t` in the plane.
     pub fn corners(&self, carrier: &Carrier, t: usize) -> [DVec2; 3] {
         carrier.triangles[t].map(|v| self.uv[v as usize])
+    }
+
+    /// Where a carrier point is in the plane.
+    pub fn at(&self, carrier: &Carrier, p: &SurfacePoint) -> DVec2 {
+        let corners = self.corners(carrier, p.triangle as usize);
+        corners[0] * p.bary[0] + corners[1] * p.bary[1] + corners[2] * p.bary[2]
+    }
+
+    /// Where a point of a loop is in the plane.
+    pub fn on_loop(&self, surface: &Surface, c: &ChainPoint) -> DVec2 {
+        let chain = &surface.loops[c.chain as usize];
+        let (k, fraction) = chain.locate(c.s);
+        let next = chain.vertices[(k + 1) % chain.vertices.len()];
+        self.uv[chain.vertices[k] as usize].lerp(self.uv[next as usize], fraction)
     }
 }
 
