@@ -7,4 +7,6 @@ pub(crate) mod chunks;
 pub(crate) mod conjugate;
 pub(crate) mod delaunay;
 pub mod dual;
+pub(crate) mod multigrid;
+pub(crate) mod sparse;
 pub mod trig;

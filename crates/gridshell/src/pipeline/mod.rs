@@ -6,6 +6,7 @@
 //! threads. A job that is stopped still ends with the best grid so far.
 
 mod contest;
+mod effort;
 mod narrow;
 mod starts;
 
@@ -21,8 +22,6 @@ use rayon::prelude::*;
 use starts::{Start, Starts};
 use std::time::Instant;
 
-/// Carrier edges over l0: fine enough for nodes to walk smoothly and boundaries to be followed.
-const CARRIER_EDGE: f64 = 0.5;
 /// Chord error of the carrier over l0. Nodes end on the exact surface; until then they may be this far off.
 const CARRIER_CHORD: f64 = 2e-3;
 /// Nodes of a grid whose edge length nobody gave.
@@ -35,13 +34,14 @@ const SENSIBLE_NODES: usize = 1000;
 /// [`Error::NoGrid`] where no valid grid of this edge length exists.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
-    let length = edge_length(model, recipe)?;
-    let surface = model.surface(&sampling(length, recipe))?;
+    let Scale { length, nodes } = scale(model, recipe)?;
+    let surface = model.surface(&sampling(length, nodes, recipe))?;
+    let budget = effort::budgeted(recipe, nodes);
     let mut stages = Vec::new();
     let judge = |grid: &Grid| measure(grid, &surface, length, &recipe.measure);
 
     let clock = Instant::now();
-    let Starts { starts, notes } = starts::starts(&surface, length, recipe, job)?;
+    let Starts { starts, notes } = starts::starts(&surface, length, &budget, job)?;
     let packed = clock.elapsed().as_secs_f64();
 
     let clock = Instant::now();
@@ -55,10 +55,10 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     let triangulated_in = clock.elapsed().as_secs_f64();
 
     let clock = Instant::now();
-    let candidates = contest::regularize(&surface, &starts, &triangulated, length, recipe, job);
+    let candidates = contest::regularize(&surface, &starts, &triangulated, length, &budget, job);
     let regularized_in = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
-    let Some(winner) = contest::relax(&surface, &candidates, length, recipe, job) else {
+    let Some(winner) = contest::relax(&surface, &candidates, length, &budget, job) else {
         return Err(Error::Surface("the surface has no room for a single node".into()));
     };
     let table = contest::table(&candidates, winner.start, &starts, recipe);
@@ -181,10 +181,10 @@ fn warnings(surface: &Surface, wanted: usize, report: &triangulate::Report) -> V
     warnings
 }
 
-/// The carrier that suits members of `length` metres.
-fn sampling(length: f64, recipe: &Recipe) -> Sampling {
+/// The carrier that suits about `nodes` nodes with members of `length` metres.
+fn sampling(length: f64, nodes: f64, recipe: &Recipe) -> Sampling {
     Sampling {
-        max_edge: CARRIER_EDGE * length,
+        max_edge: effort::carrier_edge(nodes) * length,
         chord_error: CARRIER_CHORD * length,
         corner_angle: recipe.corner_angle_deg.to_radians(),
     }
@@ -196,6 +196,18 @@ fn sampling(length: f64, recipe: &Recipe) -> Sampling {
 /// [`Error::Option`] as [`Recipe::check_edge_length`], [`Error::Surface`] as
 /// [`Model::surface`].
 pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
+    Ok(scale(model, recipe)?.length)
+}
+
+/// How large a grid is.
+struct Scale {
+    /// Wanted length, metres.
+    length: f64,
+    /// About how many nodes that makes.
+    nodes: f64,
+}
+
+fn scale(model: &Model, recipe: &Recipe) -> Result<Scale> {
     let size = model.size();
     let rough = Sampling {
         max_edge: 0.02 * size,
@@ -212,10 +224,18 @@ pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
             .map_or_else(|| length_for(&surface, SENSIBLE_NODES), |b| b.edge_length),
     };
     Recipe::check_edge_length(length, surface.area)?;
-    Ok(length)
+    Ok(Scale { length, nodes: nodes_for(&surface, length) })
 }
 
-/// The edge length that makes about `nodes` nodes: n = A / (2 A0) + n_b / 2 + chi (Eq. 1 with the boundary).
+/// About how many nodes members of `length` metres make: n = A / (2 A0) + n_b / 2 + chi (Eq. 1 with the
+/// boundary).
+fn nodes_for(surface: &Surface, length: f64) -> f64 {
+    let rim: f64 = surface.loops.iter().map(|l| 0.5 * l.length()).sum();
+    let area = surface.area * 2.0 / 3f64.sqrt();
+    area / (length * length) + rim / length + surface.euler_characteristic() as f64
+}
+
+/// The edge length that makes about `nodes` nodes: [`nodes_for`] solved for it.
 fn length_for(surface: &Surface, nodes: usize) -> f64 {
     let area = surface.area * 2.0 / 3f64.sqrt();
     let rim: f64 = surface.loops.iter().map(|l| 0.5 * l.length()).sum();

@@ -7,14 +7,20 @@
 //! still overlap itself (a spiral does), which a lattice does not mind.
 
 use super::{Carrier, Chain, ChainPoint, Surface, SurfacePoint};
-use crate::math::conjugate::conjugate_gradients;
+use crate::math::conjugate::{conjugate_gradients, product};
+use crate::math::multigrid::Multigrid;
+use crate::math::sparse::{Row, Sparse};
 use crate::math::trig::{atan2, cos, sin};
 use glam::{DMat2, DVec2, DVec3};
 
 /// Local/global steps from a projection, and from Tutte's embedding, which is farther off.
 const STEPS: [usize; 2] = [16, 60];
-/// Conjugate-gradient steps in each, from where the last one ended.
+/// Conjugate-gradient steps in each at most, from where the last one ended; a dozen is usual.
 const SOLVER_STEPS: usize = 80;
+/// What a step leaves of its first residual: the next one turns the triangles anyway.
+const ACCURACY: f64 = 1e-2;
+/// Rigid enough when a step begins with a residual below this share of the right side.
+const SETTLED: f64 = 1e-6;
 /// Smallest cotangent weight; obtuse pairs would make the system indefinite.
 const LEAST_WEIGHT: f64 = 0.02;
 
@@ -148,17 +154,23 @@ fn tutte(carrier: &Carrier, loops: &[Chain]) -> Vec<DVec2> {
         let hub = (n + h) as u32;
         entries.extend(chain.vertices.iter().flat_map(|&v| [(v, hub, 1.0), (hub, v, 1.0)]));
     }
-    let mut laplacian = Laplacian::new(n + hubs, entries);
+    let mut fixed = vec![false; n + hubs];
     let mut uv = vec![DVec2::ZERO; n + hubs];
     let chain = &loops[outer];
     let radius = chain.length() / std::f64::consts::TAU;
     for (&v, &s) in chain.vertices.iter().zip(&chain.arc) {
         let angle = s / radius;
         uv[v as usize] = DVec2::new(cos(angle), sin(angle)) * radius;
-        laplacian.fixed[v as usize] = true;
+        fixed[v as usize] = true;
     }
-    let right = vec![DVec2::ZERO; n + hubs];
-    laplacian.solve(&right, &mut uv, 2000);
+    let mut right = vec![DVec2::ZERO; n + hubs];
+    for &(i, j, w) in &entries {
+        let known = if fixed[i as usize] { i } else { j };
+        if fixed[known as usize] {
+            right[i as usize] += uv[known as usize] * w;
+        }
+    }
+    solve(&laplacian(n + hubs, &entries, &fixed), &right, &mut uv, 1e-7);
     uv.truncate(n);
     uv
 }
@@ -175,9 +187,10 @@ fn as_rigid_as_possible(carrier: &Carrier, mut uv: Vec<DVec2>, steps: usize) -> 
             [(i, j, w), (j, i, w)]
         })
     });
-    let laplacian = Laplacian::new(uv.len(), entries.collect());
+    let laplacian = laplacian(uv.len(), &entries.collect::<Vec<_>>(), &[]);
+    let mut right = vec![DVec2::ZERO; uv.len()];
     for _ in 0..steps {
-        let mut right = vec![DVec2::ZERO; uv.len()];
+        right.fill(DVec2::ZERO);
         for (corners, edges) in carrier.triangles.iter().zip(&flat) {
             let mut sum = DMat2::ZERO;
             for k in 0..3 {
@@ -195,7 +208,9 @@ fn as_rigid_as_possible(carrier: &Carrier, mut uv: Vec<DVec2>, steps: usize) -> 
                 right[corners[k] as usize] -= f;
             }
         }
-        laplacian.solve(&right, &mut uv, SOLVER_STEPS);
+        if solve(&laplacian, &right, &mut uv, ACCURACY) < SETTLED {
+            break;
+        }
     }
     uv
 }
@@ -211,54 +226,52 @@ fn lay_flat(p: [DVec3; 3]) -> Flat {
     })
 }
 
-/// A weighted graph Laplacian; fixed entries keep their values.
-struct Laplacian {
-    rows: Vec<Vec<(u32, f64)>>,
-    diagonal: Vec<f64>,
-    fixed: Vec<bool>,
+/// The Laplacian of a weighted graph, given by (i, j, weight) both ways round; rows of `fixed` vertices stand
+/// for themselves.
+fn laplacian(n: usize, entries: &[(u32, u32, f64)], fixed: &[bool]) -> Multigrid {
+    let is_fixed = |v: u32| fixed.get(v as usize).is_some_and(|&f| f);
+    let mut starts = vec![0; n + 1];
+    for &(i, ..) in entries {
+        starts[i as usize + 1] += 1;
+    }
+    for i in 0..n {
+        starts[i + 1] += starts[i];
+    }
+    let mut order = vec![0; entries.len()];
+    let mut next = starts.clone();
+    for (e, &(i, ..)) in entries.iter().enumerate() {
+        order[next[i as usize]] = e;
+        next[i as usize] += 1;
+    }
+    let mut matrix = Sparse::new();
+    let mut row = Row::new(n);
+    for i in 0..n {
+        row.add(&mut matrix, i as u32, 0.0);
+        for &e in &order[starts[i]..starts[i + 1]] {
+            let (_, j, w) = entries[e];
+            row.add(&mut matrix, i as u32, w);
+            if !is_fixed(i as u32) && !is_fixed(j) {
+                row.add(&mut matrix, j, -w);
+            }
+        }
+        matrix.end_row();
+    }
+    Multigrid::new(matrix)
 }
 
-impl Laplacian {
-    fn new(n: usize, mut entries: Vec<(u32, u32, f64)>) -> Laplacian {
-        entries.sort_by_key(|e| (e.0, e.1));
-        let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); n];
-        let mut diagonal = vec![0.0; n];
-        for (i, j, w) in entries {
-            diagonal[i as usize] += w;
-            match rows[i as usize].last_mut() {
-                Some(last) if last.0 == j => last.1 += w,
-                _ => rows[i as usize].push((j, w)),
-            }
-        }
-        Laplacian { rows, diagonal, fixed: vec![false; n] }
+/// Improve `x` on L x = right until the residual has fallen to `accuracy` of its first norm; gives that first
+/// norm over the norm of the right side.
+fn solve(laplacian: &Multigrid, right: &[DVec2], x: &mut [DVec2], accuracy: f64) -> f64 {
+    let mut residual = vec![DVec2::ZERO; x.len()];
+    laplacian.apply(x, &mut residual);
+    for (r, b) in residual.iter_mut().zip(right) {
+        *r = *b - *r;
     }
-
-    fn apply(&self, x: &[DVec2], y: &mut [DVec2]) {
-        let row = |i: usize| {
-            let off: DVec2 = self.rows[i].iter().map(|&(j, w)| x[j as usize] * w).sum();
-            if self.fixed[i] { DVec2::ZERO } else { x[i] * self.diagonal[i] - off }
-        };
-        for (i, y) in y.iter_mut().enumerate() {
-            *y = row(i);
-        }
-    }
-
-    /// At most `steps` conjugate-gradient steps on L x = right, both coordinates at once, from `x`.
-    fn solve(&self, right: &[DVec2], x: &mut [DVec2], steps: usize) {
-        let mut residual = vec![DVec2::ZERO; x.len()];
-        self.apply(x, &mut residual);
-        for (r, b) in residual.iter_mut().zip(right) {
-            *r = *b - *r;
-        }
-        // Against the right side too: a good start is at rounding level already.
-        let whole: f64 = right.iter().zip(&self.diagonal).map(|(v, d)| v.dot(*v / *d)).sum();
-        let enough = |first: f64| 1e-12 * whole.max(first);
-        let apply = |v: &[DVec2], y: &mut [DVec2]| self.apply(v, y);
-        let precondition = |v: &[DVec2], y: &mut [DVec2]| {
-            for ((y, v), d) in y.iter_mut().zip(v).zip(&self.diagonal) {
-                *y = *v / *d;
-            }
-        };
-        conjugate_gradients(x, residual, apply, precondition, enough, steps);
-    }
+    let share =
+        (product(&residual, &residual) / product(right, right).max(f64::MIN_POSITIVE)).sqrt();
+    let apply = |v: &[DVec2], y: &mut [DVec2]| laplacian.apply(v, y);
+    let cycle = |v: &[DVec2], y: &mut [DVec2]| laplacian.cycle(v, y);
+    let enough = |first: f64| first * accuracy * accuracy;
+    conjugate_gradients(x, residual, apply, cycle, enough, SOLVER_STEPS);
+    share
 }
