@@ -9,6 +9,7 @@ mod contest;
 mod narrow;
 mod score;
 mod starts;
+mod wishes;
 
 pub use score::score;
 
@@ -19,7 +20,7 @@ use crate::recipe::Recipe;
 use crate::run::{Run, SCHEMA, StageReport, SurfaceSummary};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
-use crate::surface::{Model, Sampling, Surface, builtin};
+use crate::surface::{Model, Ruler, Sampling, Surface, builtin};
 use rayon::prelude::*;
 use starts::{Start, Starts};
 use std::time::Instant;
@@ -39,7 +40,7 @@ const SENSIBLE_NODES: usize = 1000;
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
     let length = edge_length(model, recipe)?;
-    let surface = model.surface(&sampling(length, recipe))?;
+    let surface = wishes::surface(model, recipe, length, |l| sampling(l, recipe))?;
     let mut stages = Vec::new();
     let judge = |grid: &Grid| measure(grid, &surface, length, &recipe.measure);
 
@@ -202,8 +203,9 @@ pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
         chord_error: 1e-3 * size,
         corner_angle: recipe.corner_angle_deg.to_radians(),
     };
-    let surface = model.surface(&rough)?;
-    let length = match (recipe.edge_length, recipe.nodes) {
+    let mut surface = model.surface(&rough)?;
+    let mean = wishes::grade(&mut surface, recipe, recipe.edge_length);
+    let length = match (mean.or(recipe.edge_length), recipe.nodes) {
         (Some(length), _) => length,
         (None, Some(nodes)) => length_for(&surface, nodes),
         (None, None) => builtin::ALL
@@ -217,8 +219,8 @@ pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
 
 /// The edge length that makes about `nodes` nodes: n = A / (2 A0) + n_b / 2 + chi (Eq. 1 with the boundary).
 fn length_for(surface: &Surface, nodes: usize) -> f64 {
-    let area = surface.area * 2.0 / 3f64.sqrt();
-    let rim: f64 = surface.loops.iter().map(|l| 0.5 * l.length()).sum();
+    let area = surface.room() * 2.0 / 3f64.sqrt();
+    let rim: f64 = surface.loops.iter().map(|l| 0.5 * Ruler::new(surface, l).whole()).sum();
     let count = (nodes as f64 - surface.euler_characteristic() as f64).max(3.0);
     // count = area / l^2 + rim / l, solved for 1 / l.
     let inverse = ((rim * rim + 4.0 * area * count).sqrt() - rim) / (2.0 * area);
