@@ -357,7 +357,7 @@ impl Recipe {
     /// rows.
     pub fn row_angle(&self) -> Option<f64> {
         // A lattice has a line within thirty degrees of any direction.
-        (self.border > 0.5).then(|| (2.0 * self.border - 1.0) * std::f64::consts::FRAC_PI_6)
+        (self.border > 0.5).then_some((2.0 * self.border - 1.0) * std::f64::consts::FRAC_PI_6)
     }
 }
 

@@ -361,10 +361,11 @@ mod tests {
     use crate::grid::Place;
     use crate::surface::{Sampling, builtin};
 
-    /// A lattice on the flat hexagon, its inner nodes pushed about.
+    /// A lattice on the flat hexagon, its inner nodes pushed about, with lengths that are to vary.
     fn ruffled() -> (Surface, Grid) {
         let sampling = Sampling { max_edge: 0.5, chord_error: 2e-3, corner_angle: 0.5 };
-        let surface = builtin::model("hexagon").unwrap().surface(&sampling).unwrap();
+        let mut surface = builtin::model("hexagon").unwrap().surface(&sampling).unwrap();
+        surface.scale = surface.carrier.points.iter().map(|p| 1.0 + 0.08 * p.x).collect();
         let points = surface.carrier.points.clone();
         let mut grid = Grid::from_panels(points, &surface.carrier.triangles, &surface).unwrap();
         let mut rng = fastrand::Rng::with_seed(1);
@@ -379,7 +380,8 @@ mod tests {
 
     fn linearised() -> (Surface, Grid, System) {
         let (surface, grid) = ruffled();
-        let options = Options { straightness: 0.3, settled: 0.0, max_steps: 1, accuracy: 1e-3 };
+        let options =
+            Options { straightness: 0.3, border: 2.0, settled: 0.0, max_steps: 1, accuracy: 1e-3 };
         let mut system = System::new(&surface, &grid, &options);
         system.step(&surface, &grid);
         (surface, grid, system)
@@ -407,7 +409,7 @@ mod tests {
     #[test]
     fn right_side_is_half_the_slope_of_the_energy() {
         let (surface, grid, mut system) = linearised();
-        let members = Members { xyz: &grid.xyz, normals: None };
+        let members = system.members(&surface, &grid);
         let right = system.assemble(&members);
         let h = 1e-6;
         for i in (0..grid.xyz.len()).filter(|&i| matches!(grid.places[i], Place::Interior(_))) {

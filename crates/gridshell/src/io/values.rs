@@ -13,9 +13,11 @@ const MOST_POINTS: usize = 1_000_000;
 /// # Errors
 /// [`Error::Io`](crate::Error::Io), [`Error::Parse`](crate::Error::Parse) with the line.
 pub fn read_lengths(path: &Path) -> Result<Vec<[f64; 4]>> {
-    let positive = |row: &[f64; 4]| match row[3] > 0.0 {
-        true => Ok(()),
-        false => Err(format!("the length is {}: it must be positive", row[3])),
+    let positive = |row: &[f64; 4]| {
+        if row[3] > 0.0 {
+            return Ok(());
+        }
+        Err(format!("the length is {}: it must be positive", row[3]))
     };
     read(path, ["x", "y", "z", "length"], positive)
 }
@@ -25,9 +27,11 @@ pub fn read_lengths(path: &Path) -> Result<Vec<[f64; 4]>> {
 /// # Errors
 /// As [`read_lengths`].
 pub fn read_directions(path: &Path) -> Result<Vec<[f64; 6]>> {
-    let nonzero = |row: &[f64; 6]| match row[3..].iter().any(|&d| d != 0.0) {
-        true => Ok(()),
-        false => Err("the vector is zero: a direction must be longer".to_owned()),
+    let nonzero = |row: &[f64; 6]| {
+        if row[3..].iter().any(|&d| d != 0.0) {
+            return Ok(());
+        }
+        Err("the vector is zero: a direction must be longer".to_owned())
     };
     read(path, ["x", "y", "z", "dx", "dy", "dz"], nonzero)
 }
