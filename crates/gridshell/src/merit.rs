@@ -153,6 +153,11 @@ impl Sums {
         (self.delta / self.regular.max(1.0)).to_degrees()
     }
 
+    /// Mean shape of the panels at the border; 1 without any.
+    pub fn border_shape_mean(&self) -> f64 {
+        if self.border_panels > 0.0 { self.border_shape / self.border_panels } else { 1.0 }
+    }
+
     /// Fluency Q (Eq. 31); None for a perfect lattice.
     pub fn fluency(&self, lambda: f64) -> Option<f64> {
         let rho = lambda * self.regular / self.weighted.max(f64::MIN_POSITIVE);
@@ -164,12 +169,10 @@ impl Sums {
     /// single members and panels. Higher is better.
     pub fn merit(&self, lambda: f64) -> f64 {
         let over = |x: f64, limit: f64| (x - limit).max(0.0);
-        let border_shape =
-            if self.border_panels > 0.0 { self.border_shape / self.border_panels } else { 1.0 };
         let held_back = 4.0 * over(self.members.cv(), 0.055)
             + 1.5 * over(self.border_members.cv(), 0.11)
-            + 3.0 * over(0.96, border_shape)
-            + 10.0 * over((self.members.mean() - 1.0).abs(), 0.015)
+            + 3.0 * over(0.96, self.border_shape_mean())
+            + 10.0 * over((self.members.mean() - 1.0).abs(), 0.01)
             + 30.0 * over(0.986, self.area)
             + 4.0 * self.excess;
         self.fluency(lambda).unwrap_or(1.0 / PERFECT) / (1.0 + held_back)

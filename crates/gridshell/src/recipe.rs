@@ -198,8 +198,10 @@ pub struct Regularize {
     pub most_trials: usize,
     /// Grids searched side by side; the best is kept.
     pub candidates: usize,
-    /// How many of them, the best, are relaxed to the end.
-    pub finalists: usize,
+    /// Heats of polishing: how many candidates, the best, come through to it, and trials per irregular node.
+    pub heats: Vec<[usize; 2]>,
+    /// Trials of one grid in one heat at most.
+    pub most_polish: usize,
     /// Weight w of the residual R in the search's energy, sum of (l / l0 - 1)^2 + w R.
     pub residual_weight: f64,
     /// First and last temperature of the search, in units of that energy.
@@ -292,7 +294,8 @@ impl Default for Regularize {
             trials: 6000,
             most_trials: 240_000,
             candidates: 16,
-            finalists: 4,
+            heats: vec![[16, 50], [6, 150], [2, 500]],
+            most_polish: 40_000,
             residual_weight: 0.6,
             temperature: [0.15, 0.03],
         }

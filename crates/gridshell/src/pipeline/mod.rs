@@ -1,23 +1,20 @@
 //! The whole method: the only place that knows the order of the stages.
 //!
 //! Several starts (lattices drawn at random and judged in a quick run, or bubble packings) go through
-//! triangulate and regularize side by side; the best grid by [`score`] is relaxed and put on the exact surface.
+//! triangulate and regularize side by side; the best grid by [`crate::merit`] is relaxed and put on the exact surface.
 //! Every choice is seeded by the recipe and the place in its list, so the grid is the same for any number of
 //! threads. A job that is stopped still ends with the best grid so far.
 
 mod contest;
 mod narrow;
-mod score;
 mod starts;
 mod wishes;
-
-pub use score::score;
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::job::Job;
 use crate::recipe::Recipe;
-use crate::run::{Run, SCHEMA, StageReport, SurfaceSummary};
+use crate::run::{CandidateReport, Run, SCHEMA, StageReport, SurfaceSummary};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
 use crate::surface::{Model, Ruler, Sampling, Surface, builtin};
@@ -62,9 +59,10 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     let candidates = contest::regularize(&surface, &starts, &triangulated, length, recipe, job);
     let regularized_in = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
-    let Some(winner) = contest::relax(&surface, candidates, length, recipe, job) else {
+    let Some(winner) = contest::relax(&surface, &candidates, length, recipe, job) else {
         return Err(Error::Surface("the surface has no room for a single node".into()));
     };
+    let table = contest::table(&candidates, winner.start, &starts, recipe);
     let relaxed_in = clock.elapsed().as_secs_f64();
 
     let Start { report: settled, bubbles, .. } = &starts[winner.start];
@@ -110,7 +108,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         grid: Some(grid.clone()),
     });
     warnings.extend(narrow::warnings(&surface, &grid, length));
-    finish(model, &surface, recipe, length, stages, warnings, quality, grid, job)
+    finish(model, &surface, recipe, length, table, stages, warnings, quality, grid, job)
 }
 
 #[expect(clippy::too_many_arguments, reason = "the parts of a run, gathered once")]
@@ -119,6 +117,7 @@ fn finish(
     surface: &Surface,
     recipe: &Recipe,
     length: f64,
+    candidates: Vec<CandidateReport>,
     stages: Vec<StageReport>,
     warnings: Vec<String>,
     quality: Quality,
@@ -134,6 +133,7 @@ fn finish(
         surface: SurfaceSummary::new(model, surface),
         edge_length: length,
         recipe: recipe.clone(),
+        candidates,
         stages,
         irregular: irregular_nodes(&grid),
         quality,

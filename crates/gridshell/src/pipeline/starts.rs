@@ -1,13 +1,12 @@
 //! The bubbles that candidates start from.
 
-use super::score;
 use crate::balance::{self, balance};
 use crate::bubbles::Bubbles;
 use crate::error::Result;
 use crate::grid::Grid;
 use crate::job::Job;
+use crate::merit::Sums;
 use crate::recipe::{self, Recipe};
-use crate::stages::measure::compare;
 use crate::stages::{pack, triangulate};
 use crate::surface::{Surface, chart::Chart};
 use pack::lattice::Lattice;
@@ -23,6 +22,13 @@ pub struct Start {
     pub report: Option<pack::Report>,
     /// Their grid, where they were judged by it.
     pub grid: Option<Grid>,
+}
+
+impl Start {
+    /// Where the bubbles came from: only packings settle.
+    pub fn kind(&self) -> recipe::Start {
+        if self.report.is_some() { recipe::Start::Random } else { recipe::Start::Lattice }
+    }
 }
 
 /// The starts of all candidates, and what is to be said about them.
@@ -121,7 +127,8 @@ fn lattices(
             let start = connect(surface, chart, &bubbles)?;
             let mut grid = start.clone();
             balance(surface, &mut grid, &trial, &Job::default());
-            let points = score(&compare(&grid, surface, length, &recipe.measure));
+            let lambda = recipe.measure.lambda;
+            let points = Sums::whole(&grid, surface, length, lambda).merit(lambda);
             Ok(Some((points, Start { bubbles, seed, report: None, grid: Some(start) })))
         })
         .collect::<Result<_>>()?;

@@ -12,6 +12,7 @@ mod members;
 mod panels;
 mod quality;
 
+pub use bridging::count as bridging_members;
 pub use quality::{Border, Degrees, EdgeLength, Irregular, IrregularNode, Lengths, Quality, Shape};
 
 use crate::degree::{REGULAR, adjusted_degree, boundary_angle, virtual_degree, weight};

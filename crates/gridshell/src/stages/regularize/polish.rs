@@ -2,7 +2,7 @@
 //! the merit of the whole grid says so.
 
 use super::Report;
-use super::local::Local;
+use super::local::{Aim, Local};
 use super::search::{Operation, draw_at};
 use super::state::{Few, State};
 use crate::balance::{self, balance};
@@ -14,43 +14,24 @@ use smallvec::SmallVec;
 
 /// Rings of nodes that move with an operation.
 const RINGS: usize = 3;
+/// Steps of balancing round an operation.
+const STEPS: usize = 3;
 /// Panels below this shape are refused.
 const LEAST_SHAPE: f64 = 0.55;
 /// Rounds, each begun with the whole grid in balance.
 const ROUNDS: usize = 6;
 /// Temperatures, first and last, as shares of the merit.
-const TEMPERATURE: [f64; 2] = [0.004, 0.0003];
-static TEMP: std::sync::LazyLock<[f64; 2]> = std::sync::LazyLock::new(|| {
-    std::env::var("TEMP").ok().map_or(TEMPERATURE, |s| {
-        let v: Vec<f64> = s.split(',').map(|x| x.parse().unwrap()).collect();
-        [v[0], v[1]]
-    })
-});
+const TEMPERATURE: [f64; 2] = [0.4, 0.05];
 /// What an operation may at best win by lengths and lines, as a share of the merit.
-const HOPE: f64 = 0.04;
+const HOPE: f64 = 2.0;
 
-static HP: std::sync::LazyLock<f64> =
-    std::sync::LazyLock::new(|| std::env::var("HP").ok().map_or(HOPE, |s| s.parse().unwrap()));
-/// Polish `state` by `trials` trials.
+/// Polish `state` by so many trials per irregular node.
 pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job: &Job) -> Report {
     let mut report = Report::default();
+    let trials = trials.saturating_mul(state.irregular().len()).min(recipe.regularize.most_polish);
     let mut polish = Polish::new(state, recipe, seed);
     for round in 0..ROUNDS {
-        let b = (polish.merit, polish.total.fluency(0.9).unwrap_or(0.0), polish.total.mu());
         polish.balance_all(3);
-        if std::env::var("DBG").is_ok() {
-            eprintln!(
-                "   merit round {round}: {b:.3?} -> {:.3} Q {:.3} mu {:.3} r {:.4} bcv {:.3} bq {:.3} exc {:.4} accepted {}",
-                polish.merit,
-                polish.total.fluency(0.9).unwrap_or(0.0),
-                polish.total.mu(),
-                polish.total.members.cv(),
-                polish.total.border_members.cv(),
-                polish.total.border_shape / polish.total.border_panels,
-                polish.total.excess,
-                report.flips + report.collapses + report.splits
-            );
-        }
         if round == 0 || polish.merit > polish.best.0 {
             polish.best = (polish.merit, polish.state.grid.clone());
         }
@@ -63,7 +44,7 @@ pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job:
                 return report;
             }
             let done = (round as f64 + made as f64 * ROUNDS as f64 / trials as f64) / ROUNDS as f64;
-            let [hot, cold] = *TEMP;
+            let [hot, cold] = TEMPERATURE;
             polish.temperature = hot * exp(ln(cold / hot) * done);
             made += usize::from(polish.trial(&mut report));
         }
@@ -86,6 +67,7 @@ struct Polish<'a, 'b> {
     total: Sums,
     merit: f64,
     temperature: f64,
+    unit: f64,
     best: (f64, crate::grid::Grid),
 }
 
@@ -99,6 +81,7 @@ impl<'a, 'b> Polish<'a, 'b> {
             total: Sums::default(),
             merit: 0.0,
             temperature: 0.0,
+            unit: 0.0,
             best: (f64::NEG_INFINITY, state.grid.clone()),
             state,
         }
@@ -118,14 +101,16 @@ impl<'a, 'b> Polish<'a, 'b> {
         let state = &*self.state;
         self.total = Sums::whole(&state.grid, state.surface, state.length, state.lambda);
         self.merit = self.total.merit(state.lambda);
+        let more = Sums { residual: self.total.residual + 1.0 - state.lambda, ..self.total };
+        self.unit = self.merit - more.merit(state.lambda);
     }
 
     /// Try a few operations near an irregular node; whether they came as far as being balanced.
     fn trial(&mut self, report: &mut Report) -> bool {
-        let bar = self.merit + self.best.0 * self.temperature * ln(self.rng.f64().max(1e-300));
+        let bar = self.merit + self.unit * self.temperature * ln(self.rng.f64().max(1e-300));
         let Some(plan) = self.plan() else { return false };
         let hoped = Sums { residual: self.total.residual + plan.change, ..self.total };
-        if hoped.merit(self.state.lambda) + self.best.0 * *HP < bar {
+        if hoped.merit(self.state.lambda) + self.unit * HOPE < bar {
             return false;
         }
         let kept = self.carry_out(&plan).filter(|(after, _)| after.merit(self.state.lambda) >= bar);
@@ -221,7 +206,8 @@ impl<'a, 'b> Polish<'a, 'b> {
             let region = state.region(&plan.touched, RINGS - 1);
             state.remember(&region);
             let mean = self.total.members.mean() * state.length;
-            self.local.balance(state, &region, &rim, mean, self.straightness, 3);
+            let aim = Aim { mean, straightness: self.straightness, border: self.border };
+            self.local.balance(state, &region, &rim, &aim, STEPS);
             if state.has_bad_panel(&plan.touched_alive(state), LEAST_SHAPE) {
                 return None;
             }
