@@ -11,8 +11,8 @@ fn quick(recipe: Recipe) -> Recipe {
     let mut recipe = recipe;
     recipe.pack.draws = 12;
     recipe.regularize.candidates = 2;
-    recipe.regularize.finalists = 1;
     recipe.regularize.trials = 1500;
+    recipe.regularize.most_polish = 500;
     recipe
 }
 
