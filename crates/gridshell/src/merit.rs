@@ -120,11 +120,10 @@ impl Sums {
                     at_border || mesh.is_boundary(w),
                 );
             }
-            let normal = grid.places[v as usize].normal(surface);
             for (a, b) in mesh.fan(v) {
                 if [a, b].iter().all(|&w| w > v || !inside(w)) {
                     let at_border = at_border || mesh.is_boundary(a) || mesh.is_boundary(b);
-                    sums.panel([v, a, b].map(|w| grid.xyz[w as usize]), normal, at_border);
+                    sums.panel(grid, surface, [v, a, b], at_border);
                 }
             }
         }
@@ -141,16 +140,16 @@ impl Sums {
         self.excess += beyond * beyond;
     }
 
-    fn panel(&mut self, p: [DVec3; 3], normal: DVec3, at_border: bool) {
+    fn panel(&mut self, grid: &Grid, surface: &Surface, t: [u32; 3], at_border: bool) {
+        let p = t.map(|v| grid.xyz[v as usize]);
         let shape = shape(p);
-        let twice = (p[1] - p[0]).cross(p[2] - p[0]);
-        self.area += 0.5 * twice.length();
+        self.area += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).length();
         if at_border {
             self.border_panels += 1.0;
             self.border_shape += shape;
         }
         let beyond = (SHAPE - shape).max(0.0);
-        self.excess += beyond * beyond + f64::from(twice.dot(normal) < 0.0);
+        self.excess += beyond * beyond + f64::from(is_turned(grid, surface, t));
     }
 
     /// mu of Eq. 27.
@@ -179,7 +178,8 @@ impl Sums {
     /// single members and panels. Higher is better.
     pub fn merit(&self, lambda: f64) -> f64 {
         let over = |x: f64, limit: f64| (x - limit).max(0.0);
-        let held_back = 4.0 * over(self.members.cv(), 0.055)
+        let inner = self.members - self.border_members;
+        let held_back = 6.0 * over(inner.cv(), 0.05)
             + 1.5 * over(self.border_members.cv(), 0.11)
             + 3.0 * over(0.96, self.border_shape_mean())
             + 10.0 * over((self.members.mean() - 1.0).abs(), 0.01)
@@ -282,6 +282,14 @@ pub fn delta(grid: &Grid, v: u32) -> f64 {
         squares += bend * bend + skew * skew;
     }
     (squares / 3.0).sqrt()
+}
+
+/// Whether a panel faces against the surface: against its normal at a corner, and at all corners on average.
+pub fn is_turned(grid: &Grid, surface: &Surface, t: [u32; 3]) -> bool {
+    let [p, q, r] = t.map(|v| grid.xyz[v as usize]);
+    let panel = (q - p).cross(r - p);
+    let normal = |v: u32| grid.places[v as usize].normal(surface);
+    panel.dot(normal(t[0])) <= 0.0 && panel.dot(t.map(normal).iter().sum()) <= 0.0
 }
 
 /// Panel shape index q of Eq. 25; 0 for a panel without extent.

@@ -294,8 +294,8 @@ impl Default for Regularize {
             trials: 6000,
             most_trials: 240_000,
             candidates: 16,
-            heats: vec![[16, 50], [6, 150], [2, 500]],
-            most_polish: 40_000,
+            heats: vec![[16, 40], [5, 120], [2, 300]],
+            most_polish: 30_000,
             residual_weight: 0.6,
             temperature: [0.15, 0.03],
         }

@@ -4,6 +4,7 @@
 use crate::balance::arc_over_chord;
 use crate::degree::{boundary_angle, virtual_degree};
 use crate::grid::{Grid, Place};
+use crate::merit;
 use crate::mesh::{Refusal, Undo};
 use crate::surface::{ChainPoint, Surface};
 use glam::DVec3;
@@ -300,16 +301,12 @@ impl<'a> State<'a> {
 
     /// Whether a panel at one of these vertices is a sliver (shape below `least`) or turned over.
     pub fn has_bad_panel(&self, vertices: &[u32], least: f64) -> bool {
-        let xyz = &self.grid.xyz;
-        let carrier = &self.surface.carrier;
+        let grid = &self.grid;
         vertices.iter().any(|&v| {
-            let normal = carrier.normal(&self.grid.places[v as usize].surface_point(self.surface));
-            self.grid.mesh.fan(v).any(|(a, b)| {
-                let (p, q, r) = (xyz[v as usize], xyz[a as usize], xyz[b as usize]);
-                let area = (q - p).cross(r - p);
-                let sides = p.distance_squared(q) + q.distance_squared(r) + r.distance_squared(p);
-                let shape = 2.0 * 3f64.sqrt() * area.length() / sides;
-                shape < least || area.dot(normal) <= 0.0
+            grid.mesh.fan(v).any(|(a, b)| {
+                let t = [v, a, b];
+                merit::shape(t.map(|v| grid.xyz[v as usize])) < least
+                    || merit::is_turned(grid, self.surface, t)
             })
         })
     }
