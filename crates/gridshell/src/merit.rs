@@ -35,6 +35,10 @@ pub struct Sums {
     pub border_shape: f64,
     /// Area of the panels over that of the surface.
     pub area: f64,
+    /// Nodes inside where a direction is wanted, and how far their members are off it.
+    pub guided: f64,
+    /// See `guided`.
+    pub astray: f64,
     /// How far members and panels are beyond what is wanted of each.
     pub excess: f64,
 }
@@ -52,6 +56,8 @@ pub struct Lengths {
 
 /// Members shorter or longer than this, over the wanted length, are beyond what is wanted.
 const MEMBERS: [f64; 2] = [0.66, 1.4];
+/// Members may be off a wanted direction by so much in the mean, radians, before it counts.
+const ASTRAY: f64 = 0.03;
 /// Panels of a lower shape q are beyond what is wanted.
 const SHAPE: f64 = 0.68;
 
@@ -103,9 +109,16 @@ impl Sums {
                 sums.regular += 1.0;
                 sums.delta += delta(grid, v);
             }
+            if !at_border && let Some(off) = off_direction(grid, surface, v) {
+                sums.guided += 1.0;
+                sums.astray += off;
+            }
             // A member or panel is counted by the least of its nodes that is inside.
             for &w in mesh.ring(v).iter().filter(|&&w| w > v || !inside(w)) {
-                sums.member(grid.length(v, w) / length, at_border || mesh.is_boundary(w));
+                sums.member(
+                    grid.scaled_length(surface, v, w) / length,
+                    at_border || mesh.is_boundary(w),
+                );
             }
             for (a, b) in mesh.fan(v) {
                 if [a, b].iter().all(|&w| w > v || !inside(w)) {
@@ -171,6 +184,7 @@ impl Sums {
             + 3.0 * over(0.96, self.border_shape_mean())
             + 10.0 * over((self.members.mean() - 1.0).abs(), 0.01)
             + 30.0 * over(0.986, self.area)
+            + 20.0 * over(self.astray / self.guided.max(1.0), ASTRAY)
             + 4.0 * self.excess;
         self.fluency(lambda).unwrap_or(1.0 / PERFECT) / (1.0 + held_back)
     }
@@ -211,6 +225,8 @@ impl Add for Sums {
             border_panels: self.border_panels + o.border_panels,
             border_shape: self.border_shape + o.border_shape,
             area: self.area + o.area,
+            guided: self.guided + o.guided,
+            astray: self.astray + o.astray,
             excess: self.excess + o.excess,
         }
     }
@@ -229,9 +245,28 @@ impl Sub for Sums {
             border_panels: self.border_panels - o.border_panels,
             border_shape: self.border_shape - o.border_shape,
             area: self.area - o.area,
+            guided: self.guided - o.guided,
+            astray: self.astray - o.astray,
             excess: self.excess - o.excess,
         }
     }
+}
+
+/// Angle between the wanted direction at node `v` and the nearest of its members, radians; None where no direction is
+/// wanted.
+pub fn off_direction(grid: &Grid, surface: &Surface, v: u32) -> Option<f64> {
+    if surface.direction.is_empty() {
+        return None;
+    }
+    let point = grid.places[v as usize].surface_point(surface);
+    let wanted = surface.direction_at(&point)?;
+    let normal = surface.carrier.normal(&point);
+    let off = |&w: &u32| {
+        let member = grid.xyz[w as usize] - grid.xyz[v as usize];
+        let angle = trig::angle(member - normal * member.dot(normal), wanted);
+        angle.min(PI - angle)
+    };
+    Some(grid.mesh.ring(v).iter().map(off).fold(PI, f64::min))
 }
 
 /// Angle fluency index `delta_i` of a regular interior node (Eq. 28 and 29), radians.

@@ -9,6 +9,7 @@ mod contest;
 mod effort;
 mod narrow;
 mod starts;
+mod wishes;
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -17,7 +18,7 @@ use crate::recipe::Recipe;
 use crate::run::{CandidateReport, Run, SCHEMA, StageReport, SurfaceSummary};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
-use crate::surface::{Model, Sampling, Surface, builtin};
+use crate::surface::{Model, Ruler, Sampling, Surface, builtin};
 use rayon::prelude::*;
 use starts::{Start, Starts};
 use std::time::Instant;
@@ -35,7 +36,7 @@ const SENSIBLE_NODES: usize = 1000;
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
     let Scale { length, nodes } = scale(model, recipe)?;
-    let surface = model.surface(&sampling(length, nodes, recipe))?;
+    let surface = wishes::surface(model, recipe, length, |l| sampling(l, nodes, recipe))?;
     let budget = effort::budgeted(recipe, nodes);
     let mut stages = Vec::new();
     let judge = |grid: &Grid| measure(grid, &surface, length, &recipe.measure);
@@ -214,8 +215,9 @@ fn scale(model: &Model, recipe: &Recipe) -> Result<Scale> {
         chord_error: 1e-3 * size,
         corner_angle: recipe.corner_angle_deg.to_radians(),
     };
-    let surface = model.surface(&rough)?;
-    let length = match (recipe.edge_length, recipe.nodes) {
+    let mut surface = model.surface(&rough)?;
+    let mean = wishes::grade(&mut surface, recipe, recipe.edge_length);
+    let length = match (mean.or(recipe.edge_length), recipe.nodes) {
         (Some(length), _) => length,
         (None, Some(nodes)) => length_for(&surface, nodes),
         (None, None) => builtin::ALL
@@ -230,17 +232,21 @@ fn scale(model: &Model, recipe: &Recipe) -> Result<Scale> {
 /// About how many nodes members of `length` metres make: n = A / (2 A0) + n_b / 2 + chi (Eq. 1 with the
 /// boundary).
 fn nodes_for(surface: &Surface, length: f64) -> f64 {
-    let rim: f64 = surface.loops.iter().map(|l| 0.5 * l.length()).sum();
-    let area = surface.area * 2.0 / 3f64.sqrt();
+    let (area, rim) = room(surface);
     area / (length * length) + rim / length + surface.euler_characteristic() as f64
 }
 
 /// The edge length that makes about `nodes` nodes: [`nodes_for`] solved for it.
 fn length_for(surface: &Surface, nodes: usize) -> f64 {
-    let area = surface.area * 2.0 / 3f64.sqrt();
-    let rim: f64 = surface.loops.iter().map(|l| 0.5 * l.length()).sum();
+    let (area, rim) = room(surface);
     let count = (nodes as f64 - surface.euler_characteristic() as f64).max(3.0);
     // count = area / l^2 + rim / l, solved for 1 / l.
     let inverse = ((rim * rim + 4.0 * area * count).sqrt() - rim) / (2.0 * area);
     1.0 / inverse
+}
+
+/// Twice the panels' share of the area, and half the boundary, in units of local lengths.
+fn room(surface: &Surface) -> (f64, f64) {
+    let rim = surface.loops.iter().map(|l| 0.5 * Ruler::new(surface, l).whole()).sum();
+    (surface.room() * 2.0 / 3f64.sqrt(), rim)
 }

@@ -34,20 +34,23 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// Flatten a carrier; None where that makes no sense: closed, not connected, or with handles.
-    pub fn flatten(carrier: &Carrier, loops: &[Chain], euler_characteristic: i64) -> Option<Chart> {
+    /// Flatten a surface, as its scale shrinks and stretches it where lengths are to vary; None where that makes no
+    /// sense: closed, not connected, or with handles.
+    pub fn flatten(surface: &Surface) -> Option<Chart> {
+        let (carrier, loops) = (&surface.carrier, &surface.loops);
         // chi = 2 - 2 genus - loops for one piece.
         if loops.is_empty()
-            || euler_characteristic != 2 - loops.len() as i64
+            || surface.euler_characteristic() != 2 - loops.len() as i64
             || !is_connected(carrier)
         {
             return None;
         }
         let (uv, steps) = match projection(carrier) {
-            Some(uv) => (uv, STEPS[0]),
+            Some(uv) if surface.scale.is_empty() => (uv, STEPS[0]),
+            Some(uv) => (uv, STEPS[1]),
             None => (tutte(carrier, loops), STEPS[1]),
         };
-        let mut chart = Chart { uv: as_rigid_as_possible(carrier, uv, steps), upright: true };
+        let mut chart = Chart { uv: as_rigid_as_possible(surface, uv, steps), upright: true };
         chart.upright = (0..carrier.triangles.len()).all(|t| {
             let [p, q, r] = chart.corners(carrier, t);
             (q - p).perp_dot(r - p) > 0.0
@@ -55,13 +58,15 @@ impl Chart {
         Some(chart)
     }
 
-    /// How much the chart stretches and shrinks: root mean square of (length in the chart / on the carrier - 1).
-    pub fn strain(&self, carrier: &Carrier) -> f64 {
+    /// How much the chart stretches and shrinks: root mean square of (length in the chart / on the surface - 1).
+    pub fn strain(&self, surface: &Surface) -> f64 {
+        let carrier = &surface.carrier;
         let (mut sum, mut count) = (0.0, 0.0);
-        for corners in &carrier.triangles {
+        for (t, corners) in carrier.triangles.iter().enumerate() {
+            let scale = scale(surface, t);
             for k in 0..3 {
                 let (a, b) = (corners[k] as usize, corners[(k + 1) % 3] as usize);
-                let length = carrier.points[a].distance(carrier.points[b]);
+                let length = carrier.points[a].distance(carrier.points[b]) / scale;
                 let strain = self.uv[a].distance(self.uv[b]) / length - 1.0;
                 sum += strain * strain;
                 count += 1.0;
@@ -103,6 +108,11 @@ impl Chart {
         let next = chain.vertices[(k + 1) % chain.vertices.len()];
         self.uv[chain.vertices[k] as usize].lerp(self.uv[next as usize], fraction)
     }
+}
+
+/// Scale of a triangle.
+fn scale(surface: &Surface, t: usize) -> f64 {
+    surface.scale_at(&SurfacePoint { triangle: t as u32, bary: [1.0 / 3.0; 3] })
 }
 
 fn is_connected(carrier: &Carrier) -> bool {
@@ -178,9 +188,11 @@ fn tutte(carrier: &Carrier, loops: &[Chain]) -> Vec<DVec2> {
 /// A triangle laid flat: edge vectors k -> k + 1 in its own plane, and their cotangent weights.
 type Flat = [(DVec2, f64); 3];
 
-fn as_rigid_as_possible(carrier: &Carrier, mut uv: Vec<DVec2>, steps: usize) -> Vec<DVec2> {
-    let flat: Vec<Flat> =
-        (0..carrier.triangles.len()).map(|t| lay_flat(carrier.corners(t as u32))).collect();
+fn as_rigid_as_possible(surface: &Surface, mut uv: Vec<DVec2>, steps: usize) -> Vec<DVec2> {
+    let carrier = &surface.carrier;
+    let flat: Vec<Flat> = (0..carrier.triangles.len())
+        .map(|t| lay_flat(carrier.corners(t as u32), scale(surface, t)))
+        .collect();
     let entries = carrier.triangles.iter().zip(&flat).flat_map(|(corners, edges)| {
         (0..3).flat_map(move |k| {
             let (i, j, w) = (corners[k], corners[(k + 1) % 3], edges[k].1);
@@ -215,14 +227,14 @@ fn as_rigid_as_possible(carrier: &Carrier, mut uv: Vec<DVec2>, steps: usize) -> 
     uv
 }
 
-fn lay_flat(p: [DVec3; 3]) -> Flat {
+fn lay_flat(p: [DVec3; 3], scale: f64) -> Flat {
     let x = (p[1] - p[0]).normalize_or_zero();
     let y = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero().cross(x);
     [0, 1, 2].map(|k| {
         let (a, b, c) = (p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
         let cot = (a - c).dot(b - c) / (a - c).cross(b - c).length().max(f64::MIN_POSITIVE);
         let w = (0.5 * cot).clamp(LEAST_WEIGHT, 1.0 / LEAST_WEIGHT);
-        (DVec2::new((b - a).dot(x), (b - a).dot(y)), w)
+        (DVec2::new((b - a).dot(x), (b - a).dot(y)) / scale, w)
     })
 }
 

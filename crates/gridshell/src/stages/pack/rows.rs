@@ -183,9 +183,7 @@ mod tests {
         let sampling =
             Sampling { max_edge: 0.5 * length, chord_error: 2e-3 * length, corner_angle: 0.5 };
         let surface = builtin::model(name).expect("built in").surface(&sampling).expect(name);
-        let chart =
-            Chart::flatten(&surface.carrier, &surface.loops, surface.euler_characteristic())
-                .expect("it has a chart");
+        let chart = Chart::flatten(&surface).expect("it has a chart");
         let pieces = pieces(&surface);
         let counts: Vec<usize> = pieces.iter().map(|p| member_count(p, length)).collect();
         let boundary = place(&surface, &pieces, &counts, 0.0);

@@ -57,7 +57,9 @@ impl Local {
             let moves: Vec<DVec3> = self
                 .nodes
                 .iter()
-                .map(|(at, axes)| axes.iter().enumerate().map(|(k, &t)| t * self.right[at + k]).sum())
+                .map(|(at, axes)| {
+                    axes.iter().enumerate().map(|(k, &t)| t * self.right[at + k]).sum()
+                })
                 .collect();
             let longest = moves.iter().map(|m: &DVec3| m.length()).fold(0.0, f64::max);
             let scale = (REACH * aim.mean / longest).min(1.0);
@@ -106,6 +108,7 @@ impl Local {
                 }
                 let (chord, length) = state.member(v, w);
                 let u = chord.normalize_or_zero();
+                let u = u / state.scale(v, w);
                 let at_border = grid.mesh.is_boundary(v) || grid.mesh.is_boundary(w);
                 let weight = if at_border { aim.border } else { 1.0 };
                 self.add_length([(Some(i), -u), (j, u)], length - aim.mean, weight, with_matrix);
@@ -123,12 +126,22 @@ impl Local {
             for k in 0..3 {
                 let (a, b) = (ring[k], ring[k + 3]);
                 let (la, lb) = (local(a), local(b));
-                if here.is_none() && la.is_none() && lb.is_none() || state.is_sharp(v, a) || state.is_sharp(v, b) {
+                if here.is_none() && la.is_none() && lb.is_none()
+                    || state.is_sharp(v, a)
+                    || state.is_sharp(v, b)
+                {
                     continue;
                 }
-                let bend = grid.xyz[a as usize] + grid.xyz[b as usize] - at * 2.0;
+                let [ra, rb] = [a, b].map(|w| 1.0 / state.scale(v, w));
+                let bend = (grid.xyz[a as usize] - at) * ra + (grid.xyz[b as usize] - at) * rb;
                 let bend = bend - normal * bend.dot(normal);
-                self.add_bend([(here, -2.0), (la, 1.0), (lb, 1.0)], bend, normal, aim.straightness, with_matrix);
+                self.add_bend(
+                    [(here, -ra - rb), (la, ra), (lb, rb)],
+                    bend,
+                    normal,
+                    aim.straightness,
+                    with_matrix,
+                );
             }
         }
     }
@@ -165,9 +178,11 @@ impl Local {
         for (node, coefficient) in terms {
             let Some(node) = node else { continue };
             let (at, axes) = &self.nodes[node];
-            columns.extend(axes.iter().enumerate().map(|(k, &t)| {
-                (at + k, (t - normal * t.dot(normal)) * coefficient)
-            }));
+            columns.extend(
+                axes.iter()
+                    .enumerate()
+                    .map(|(k, &t)| (at + k, (t - normal * t.dot(normal)) * coefficient)),
+            );
         }
         let n = self.right.len();
         for &(i, x) in &columns {

@@ -26,13 +26,7 @@ const TEMPERATURE: [f64; 2] = [0.4, 0.05];
 const HOPE: f64 = 1.0;
 
 /// Polish `state` by so many trials per irregular node.
-pub fn polish(
-    state: &mut State,
-    recipe: &Recipe,
-    trials: usize,
-    seed: u64,
-    job: &Job,
-) -> Report {
+pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job: &Job) -> Report {
     let mut report = Report::default();
     // Few irregular nodes are hard to lose: the border is where they go, so its size counts as well.
     let places = state.irregular().len().max(state.grid.mesh.boundary_count() / 2);
@@ -178,7 +172,9 @@ impl<'a, 'b> Polish<'a, 'b> {
                 .filter_map(|(v, w)| Some((self.state.flip_change(v, w)?, v, w)))
                 .min_by(|x, y| x.0.total_cmp(&y.0));
             match best {
-                Some((gain, v, w)) if gain < -1e-9 => plan.make(self.state, Operation::Flip, v, w)?,
+                Some((gain, v, w)) if gain < -1e-9 => {
+                    plan.make(self.state, Operation::Flip, v, w)?
+                }
                 _ => break,
             }
         }
@@ -260,5 +256,7 @@ fn residual(state: &State, region: &[u32]) -> f64 {
 
 /// The sums over the region last gathered.
 fn sums(state: &State, region: &[u32]) -> Sums {
-    Sums::over(&state.grid, state.surface, state.length, state.lambda, region, |v| state.in_region(v))
+    Sums::over(&state.grid, state.surface, state.length, state.lambda, region, |v| {
+        state.in_region(v)
+    })
 }
