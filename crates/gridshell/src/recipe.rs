@@ -291,7 +291,7 @@ impl Default for Regularize {
             method: RegularizeMethod::Search,
             max_rounds: 200,
             node_range: 0.1,
-            trials: 6000,
+            trials: 2000,
             most_trials: 240_000,
             candidates: 16,
             heats: vec![[16, 40], [5, 120], [2, 300]],
