@@ -7,7 +7,7 @@
 //! from draw to draw. Their irregular nodes stand along the border, some tenths of the square root of the
 //! count, each with room about it: a few hundred trials for each do what thousands do in a small grid.
 
-use crate::recipe::Recipe;
+use crate::recipe::{Recipe, RegularizeMethod};
 
 /// Up to so many nodes the recipe's counts hold in full.
 const FULL: f64 = 800.0;
@@ -15,6 +15,8 @@ const FULL: f64 = 800.0;
 const LEAST_DRAWS: usize = 16;
 const LEAST_CANDIDATES: usize = 5;
 const LEAST_FINALISTS: usize = 2;
+/// Fewest steps of packing, where a search comes after it.
+const LEAST_STEPS: usize = 300;
 /// Fewest trials of the search per irregular node.
 const LEAST_TRIALS: usize = 400;
 
@@ -35,6 +37,9 @@ pub fn budgeted(recipe: &Recipe, nodes: f64) -> Recipe {
     };
     let mut recipe = recipe.clone();
     recipe.pack.draws = cut(recipe.pack.draws, share, LEAST_DRAWS);
+    if recipe.regularize.method == RegularizeMethod::Search {
+        recipe.pack.max_steps = cut(recipe.pack.max_steps, share, LEAST_STEPS);
+    }
     let regularize = &mut recipe.regularize;
     regularize.candidates = cut(regularize.candidates, share, LEAST_CANDIDATES);
     regularize.finalists = cut(regularize.finalists, share, LEAST_FINALISTS);
@@ -72,9 +77,15 @@ mod tests {
         recipe.regularize.finalists = 1;
         recipe.regularize.trials = 0;
         let budget = budgeted(&recipe, 1e5);
-        assert_eq!(budget.pack, recipe.pack);
+        assert_eq!(budget.pack.draws, 1);
         assert_eq!((budget.regularize.candidates, budget.regularize.finalists), (1, 1));
         assert_eq!(budget.regularize.trials, 0);
+    }
+
+    #[test]
+    fn method_as_printed_packs_until_it_settles() {
+        let paper = Recipe::named("paper").unwrap();
+        assert_eq!(budgeted(&paper, 1e5).pack.max_steps, paper.pack.max_steps);
     }
 
     #[test]
