@@ -268,6 +268,9 @@ fn freedom(surface: &Surface, grid: &Grid, i: usize) -> Freedom {
         Place::Boundary(c) => {
             Freedom::Line(surface.loops[c.chain as usize].tangent(&surface.carrier, c.s))
         }
-        Place::Corner(_) => Freedom::None,
+        Place::Feature(c) => {
+            Freedom::Line(surface.features[c.chain as usize].tangent(&surface.carrier, c.s))
+        }
+        Place::Corner(_) | Place::Fixed(_) => Freedom::None,
     }
 }

@@ -2,6 +2,7 @@
 
 mod file;
 mod grid_file;
+mod lines;
 mod obj;
 mod off;
 mod ply;
@@ -11,6 +12,7 @@ mod stl;
 mod weld;
 
 pub use grid_file::GridFile;
+pub use lines::{read_anchors, read_guides};
 
 use crate::error::{Error, Result};
 use crate::surface::{Model, PolygonMesh, builtin};

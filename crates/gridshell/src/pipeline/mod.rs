@@ -19,9 +19,11 @@ use crate::recipe::Recipe;
 use crate::run::{Run, SCHEMA, StageReport, SurfaceSummary};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
-use crate::surface::{Model, Sampling, Surface, builtin};
+use crate::surface::{Fixtures, Model, Sampling, Surface, builtin};
+use glam::DVec3;
 use rayon::prelude::*;
 use starts::{Start, Starts};
+use std::f64::consts::PI;
 use std::time::Instant;
 
 /// Carrier edges over l0: fine enough for nodes to walk smoothly and boundaries to be followed.
@@ -39,7 +41,8 @@ const SENSIBLE_NODES: usize = 1000;
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
     let length = edge_length(model, recipe)?;
-    let surface = model.surface(&sampling(length, recipe))?;
+    let mut surface = model.surface(&sampling(length, recipe))?;
+    let fixed = fix(&mut surface, length, recipe)?;
     let mut stages = Vec::new();
     let judge = |grid: &Grid| measure(grid, &surface, length, &recipe.measure);
 
@@ -68,7 +71,8 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
 
     let Start { report: settled, bubbles, .. } = &starts[winner.start];
     let (grid, report) = &triangulated[winner.start];
-    let mut warnings = warnings(&surface, bubbles.len(), report);
+    let mut warnings = fixed;
+    warnings.extend(self::warnings(&surface, bubbles.len(), report));
     // Bubbles have no members yet: what is measured, as in the paper's Table 3, is their Delaunay grid.
     let packed_quality = judge(grid);
     stages.push(StageReport {
@@ -179,6 +183,20 @@ fn warnings(surface: &Surface, wanted: usize, report: &triangulate::Report) -> V
         warnings.push("the wanted length is large for this surface; expect a coarse grid".into());
     }
     warnings
+}
+
+/// Fix what the recipe asks for; gives what the user should know of it.
+fn fix(surface: &mut Surface, length: f64, recipe: &Recipe) -> Result<Vec<String>> {
+    let guides: Vec<Vec<DVec3>> =
+        recipe.guides.iter().map(|g| g.iter().map(|&p| p.into()).collect()).collect();
+    let anchors: Vec<DVec3> = recipe.anchors.iter().map(|&p| p.into()).collect();
+    surface.fix(&Fixtures {
+        crease_angle: Some(recipe.feature_angle_deg.to_radians()).filter(|&a| a < PI),
+        guides: &guides,
+        anchors: &anchors,
+        corner_angle: recipe.corner_angle_deg.to_radians(),
+        edge_length: length,
+    })
 }
 
 /// The carrier that suits members of `length` metres.

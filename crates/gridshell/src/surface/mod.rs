@@ -12,9 +12,12 @@ pub mod carrier;
 pub mod chain;
 pub mod chart;
 pub mod curve;
+mod cut;
 mod ear;
 pub mod facets;
+pub mod feature;
 mod fill;
+mod guide;
 pub mod locate;
 pub mod model;
 pub mod nurbs;
@@ -28,6 +31,7 @@ pub mod shape;
 mod size;
 mod stretch;
 pub mod tessellate;
+mod track;
 mod trim;
 mod weave;
 
@@ -35,12 +39,14 @@ pub use brep::Brep;
 pub use carrier::{Carrier, SurfacePoint};
 pub use chain::{Chain, ChainPoint};
 pub use curve::Curve;
+pub use feature::Fixtures;
 pub use locate::Locator;
 pub use model::{Model, PolygonMesh, Sampling};
 pub use shape::Shape;
 pub use tessellate::tessellate;
 
 use glam::DVec3;
+use track::Tracks;
 
 /// A design surface, ready to carry a grid.
 pub struct Surface {
@@ -50,12 +56,19 @@ pub struct Surface {
     pub carrier: Carrier,
     /// Boundary loops, closed, surface to their left seen from outside.
     pub loops: Vec<Chain>,
+    /// Stretches of features, cut at every fixed node on them. What ends them on the boundary is among the
+    /// corners of its loop, what ends them inside among `fixed`.
+    pub features: Vec<Chain>,
+    /// Carrier vertices inside that are fixed nodes: anchors, and ends, junctions and corners of features.
+    pub fixed: Vec<SurfacePoint>,
     /// Exact geometry of each patch, indexed by `carrier.patch`; empty where the input was a mesh.
     pub shapes: Vec<Shape>,
     /// Exact edge curves, indexed by the chains' segments; empty where the input was a mesh.
     pub curves: Vec<Curve>,
     /// Area in square metres, integrated over the exact patches.
     pub area: f64,
+    /// Carrier edges on model edges or features.
+    tracks: Tracks,
 }
 
 impl Surface {

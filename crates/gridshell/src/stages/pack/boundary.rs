@@ -1,17 +1,18 @@
-//! Bubbles on the boundary loops.
+//! Bubbles on the boundary loops and on features.
 
-use crate::surface::{ChainPoint, Surface};
+use crate::surface::{Chain, ChainPoint, Surface};
 
-/// A piece of a loop between two corners (or the whole loop): from where to where, metres of arc.
+/// A piece of a loop between two corners (or the whole loop), or a whole feature: from where to where, metres of
+/// arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    /// Index of the loop.
+    /// Index of the loop, or of the feature.
     pub chain: u32,
     /// Arc length where it starts.
     pub start: f64,
     /// Its length.
     pub length: f64,
-    /// Fewest members on it, so that its loop keeps three nodes.
+    /// Fewest members on it, so that its loop keeps three nodes and no two members join the same nodes.
     pub least: usize,
 }
 
@@ -31,6 +32,40 @@ pub fn pieces(surface: &Surface) -> Vec<Piece> {
         }
     }
     pieces
+}
+
+/// All features, each a piece.
+pub fn feature_pieces(surface: &Surface) -> Vec<Piece> {
+    let ends = |chain: &Chain| {
+        let (first, last) = (chain.vertices[0], chain.vertices[chain.vertices.len() - 1]);
+        (first.min(last), first.max(last))
+    };
+    let twins = |chain: &Chain| {
+        surface.features.iter().filter(|c| !c.is_closed() && ends(c) == ends(chain)).count()
+    };
+    let piece = |(c, chain): (usize, &Chain)| {
+        let (first, last) = ends(chain);
+        let least = match (chain.is_closed() || first == last, twins(chain)) {
+            (true, _) => 3,
+            (false, 1) => 1,
+            // Several features from one fixed node to another.
+            _ => 2,
+        };
+        Piece { chain: c as u32, start: 0.0, length: chain.length(), least }
+    };
+    surface.features.iter().enumerate().map(piece).collect()
+}
+
+/// Bubbles at equal distances on features, but for the fixed ones at their ends: `counts[i]` members on piece i.
+pub fn place_on_features(surface: &Surface, pieces: &[Piece], counts: &[usize]) -> Vec<ChainPoint> {
+    let mut points = Vec::new();
+    for (piece, &count) in pieces.iter().zip(counts) {
+        let first = usize::from(!surface.features[piece.chain as usize].is_closed());
+        let step = piece.length / count as f64;
+        points
+            .extend((first..count).map(|k| ChainPoint { chain: piece.chain, s: step * k as f64 }));
+    }
+    points
 }
 
 /// Number of members on a piece at this edge length.

@@ -1,6 +1,6 @@
 //! A lattice start: a triangular lattice laid on a chart of the surface.
 
-use super::boundary::{member_count, pieces, place};
+use super::boundary::{feature_pieces, member_count, pieces, place, place_on_features};
 use super::random::interior_count;
 use crate::bubbles::Bubbles;
 use crate::math::trig::{cos, sin};
@@ -16,7 +16,7 @@ pub struct Lattice {
     pub offset: [f64; 2],
     /// No lattice node nearer to the boundary than this, over l0.
     pub margin: f64,
-    /// Members added to (or taken from) each boundary piece.
+    /// Members added to (or taken from) each boundary piece, then each feature.
     pub extra: Vec<i64>,
     /// Shift of the nodes of loops without corners, in members.
     pub slide: f64,
@@ -44,7 +44,12 @@ impl Lattice {
         };
         let counts: Vec<usize> = pieces.iter().zip(&self.extra).map(count).collect();
         let boundary = place(surface, &pieces, &counts, self.slide);
-        let wanted = interior_count(surface, boundary.len(), length, k_n) as f64;
+        let lines = feature_pieces(surface);
+        let counts: Vec<usize> = lines.iter().zip(&self.extra[pieces.len()..]).map(count).collect();
+        let features = place_on_features(surface, &lines, &counts);
+        let fixed = surface.fixed.clone();
+        let held = features.len() + fixed.len();
+        let wanted = interior_count(surface, boundary.len(), held, length, k_n) as f64;
         let mut step = length;
         let mut interior = self.interior(surface, chart, length, step);
         // The strip kept clear along the border and the chart's distortion cost nodes: draw the lattice
@@ -53,7 +58,7 @@ impl Lattice {
             step *= (interior.len() as f64 / wanted.max(1.0)).sqrt().clamp(0.9, 1.1);
             interior = self.interior(surface, chart, length, step);
         }
-        Bubbles { boundary, interior }
+        Bubbles { boundary, features, fixed, interior }
     }
 
     /// Lattice points `step` apart inside the chart and off its boundary, in order of triangles.
@@ -104,7 +109,7 @@ impl Lattice {
     }
 }
 
-/// The chart's boundary segments in square cells, to keep lattice points off them.
+/// The chart's boundary and feature segments in square cells, to keep lattice points off them.
 struct Rim {
     margin: f64,
     /// (cell, segment), sorted.
@@ -114,18 +119,24 @@ struct Rim {
 impl Rim {
     fn new(surface: &Surface, chart: &Chart, margin: f64) -> Rim {
         let mut cells = Vec::new();
-        for chain in &surface.loops {
-            for k in 0..chain.vertices.len() {
-                let p = chart.uv[chain.vertices[k] as usize];
-                let q = chart.uv[chain.vertices[(k + 1) % chain.vertices.len()] as usize];
-                let (low, high) =
-                    (cell(p.min(q) - margin, margin), cell(p.max(q) + margin, margin));
-                for i in low[0]..=high[0] {
-                    for j in low[1]..=high[1] {
-                        cells.push(([i, j], [p, q]));
-                    }
+        let mut enter = |p: DVec2, q: DVec2| {
+            let (low, high) = (cell(p.min(q) - margin, margin), cell(p.max(q) + margin, margin));
+            for i in low[0]..=high[0] {
+                for j in low[1]..=high[1] {
+                    cells.push(([i, j], [p, q]));
                 }
             }
+        };
+        for chain in surface.loops.iter().chain(&surface.features) {
+            for k in 0..chain.segments.len() {
+                let next = chain.vertices[(k + 1) % chain.vertices.len()];
+                enter(chart.uv[chain.vertices[k] as usize], chart.uv[next as usize]);
+            }
+        }
+        for p in &surface.fixed {
+            let corners = chart.corners(&surface.carrier, p.triangle as usize);
+            let uv = corners[0] * p.bary[0] + corners[1] * p.bary[1] + corners[2] * p.bary[2];
+            enter(uv, uv);
         }
         cells.sort_by_key(|c| c.0);
         Rim { margin, cells }
@@ -145,6 +156,6 @@ fn cell(p: DVec2, size: f64) -> [i64; 2] {
 
 fn distance(p: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let d = b - a;
-    let t = ((p - a).dot(d) / d.length_squared()).clamp(0.0, 1.0);
+    let t = ((p - a).dot(d) / d.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     p.distance(a + d * t)
 }

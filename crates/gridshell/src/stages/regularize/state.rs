@@ -124,11 +124,16 @@ impl<'a> State<'a> {
         self.grid.mesh.try_flip(a, b, &mut self.undo)
     }
 
-    /// Split an edge at its middle (on the surface, or on the loop for a boundary edge).
+    /// Split an edge at its middle (on the surface, or on the loop or feature that it is part of).
     pub fn split(&mut self, a: u32, b: u32) -> Result<u32, Refusal> {
         let on_boundary = self.grid.mesh.is_boundary_edge(a, b);
-        let place =
-            if on_boundary { self.middle_on_loop(a, b) } else { self.middle_on_surface(a, b) };
+        let place = if on_boundary {
+            self.middle_on_loop(a, b)
+        } else if self.grid.mesh.is_feature_edge(a, b) {
+            self.grid.middle_on_feature(self.surface, a, b).ok_or(Refusal::Feature)?
+        } else {
+            self.middle_on_surface(a, b)
+        };
         let m = self.grid.mesh.try_split(a, b, &mut self.undo)?;
         let n = self.grid.mesh.slots();
         if self.grid.xyz.len() < n {
@@ -142,15 +147,19 @@ impl<'a> State<'a> {
         Ok(m)
     }
 
-    /// Collapse an edge; the end that is the more fixed one (corner, then boundary) stays, or else `a`, which
+    /// Collapse an edge; the end that is the more fixed one (pinned, then boundary, then on a feature) stays, or else `a`, which
     /// goes to the middle. Gives the end that stays.
     pub fn collapse(&mut self, a: u32, b: u32) -> Result<u32, Refusal> {
         let mesh = &self.grid.mesh;
-        let rank = |v: u32| (mesh.is_pinned(v), mesh.is_boundary(v));
+        let rank =
+            |v: u32| (mesh.is_pinned(v), mesh.is_boundary(v), !mesh.along_features(v).is_empty());
         let (keep, gone) = if rank(b) > rank(a) { (b, a) } else { (a, b) };
         let place = match (self.grid.places[keep as usize], mesh.is_boundary_edge(a, b)) {
             (Place::Interior(_), _) => self.middle_on_surface(keep, gone),
             (Place::Boundary(_), true) => self.middle_on_loop(keep, gone),
+            (Place::Feature(_), _) if mesh.is_feature_edge(a, b) => {
+                self.grid.middle_on_feature(self.surface, a, b).ok_or(Refusal::Feature)?
+            }
             (fixed, _) => fixed,
         };
         self.grid.mesh.try_collapse(keep, gone, &mut self.undo)?;
@@ -175,7 +184,7 @@ impl<'a> State<'a> {
         let (a, b) = if self.grid.mesh.next_on_boundary(a) == Some(b) { (a, b) } else { (b, a) };
         let on_loop = |v: u32| match self.grid.places[v as usize] {
             Place::Boundary(c) | Place::Corner(c) => c,
-            Place::Interior(_) => unreachable!("boundary vertices have places on loops"),
+            _ => unreachable!("boundary vertices have places on loops"),
         };
         let (from, to) = (on_loop(a), on_loop(b));
         let chain = &self.surface.loops[from.chain as usize];

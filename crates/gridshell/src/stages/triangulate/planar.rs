@@ -7,14 +7,14 @@ use crate::bubbles::Bubbles;
 use crate::grid::{Grid, Place};
 use crate::math::delaunay;
 use crate::mesh::Mesh;
-use crate::surface::{ChainPoint, Surface, chart::Chart};
+use crate::surface::{Chain, ChainPoint, Surface, chart::Chart};
 use glam::DVec2;
 
 /// The Delaunay grid of `bubbles` in the chart; None where the chart overlaps itself, or bubbles lie so that
 /// the boundary polygons cross or leave some outside.
 pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Option<Grid> {
     let mut points: Vec<DVec2> =
-        bubbles.boundary.iter().map(|c| on_rim(surface, chart, c)).collect();
+        bubbles.boundary.iter().map(|c| in_chart(&surface.loops, chart, c)).collect();
     let mut rims = Vec::with_capacity(points.len());
     let mut first = 0;
     for same in bubbles.boundary.chunk_by(|a, b| a.chain == b.chain) {
@@ -22,7 +22,11 @@ pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Optio
         rims.extend((0..n).map(|k| [first + k, first + (k + 1) % n]));
         first += n;
     }
-    points.extend(bubbles.interior.iter().map(|p| {
+    points.extend(bubbles.features.iter().map(|c| in_chart(&surface.features, chart, c)));
+    let along = bubbles.along_features(surface);
+    // A line used twice, there and back, has the inside on both its sides.
+    rims.extend(along.iter().flat_map(|&pair| [pair; 2]));
+    points.extend(bubbles.fixed.iter().chain(&bubbles.interior).map(|p| {
         let corners = chart.corners(&surface.carrier, p.triangle as usize);
         corners[0] * p.bary[0] + corners[1] * p.bary[1] + corners[2] * p.bary[2]
     }));
@@ -37,19 +41,26 @@ pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Optio
         if corner { Place::Corner(*c) } else { Place::Boundary(*c) }
     };
     let inside = bubbles.interior.iter().map(|&p| Place::Interior(p));
-    let places: Vec<Place> = bubbles.boundary.iter().map(on_loop).chain(inside).collect();
+    let on_feature = bubbles.features.iter().map(|&c| Place::Feature(c));
+    let fixed = bubbles.fixed.iter().map(|&p| Place::Fixed(p));
+    let lines = bubbles.boundary.iter().map(on_loop).chain(on_feature);
+    let places: Vec<Place> = lines.chain(fixed).chain(inside).collect();
     for (v, place) in places.iter().enumerate() {
-        if mesh.is_boundary(v as u32) == matches!(place, Place::Interior(_)) {
+        let on_boundary = matches!(place, Place::Boundary(_) | Place::Corner(_));
+        if mesh.is_boundary(v as u32) != on_boundary {
             return None;
         }
-        mesh.pin(v as u32, matches!(place, Place::Corner(_)));
+        mesh.pin(v as u32, place.is_fixed());
+    }
+    for [a, b] in along {
+        mesh.mark_feature(a, b).ok()?;
     }
     let xyz = places.iter().map(|p| p.xyz(surface)).collect();
     Some(Grid { mesh, places, xyz })
 }
 
-fn on_rim(surface: &Surface, chart: &Chart, c: &ChainPoint) -> DVec2 {
-    let chain = &surface.loops[c.chain as usize];
+fn in_chart(chains: &[Chain], chart: &Chart, c: &ChainPoint) -> DVec2 {
+    let chain = &chains[c.chain as usize];
     let (k, fraction) = chain.locate(c.s);
     let next = chain.vertices[(k + 1) % chain.vertices.len()];
     chart.uv[chain.vertices[k] as usize].lerp(chart.uv[next as usize], fraction)
