@@ -86,7 +86,7 @@ impl Grid {
         let before = self.xyz[i];
         match &mut self.places[i] {
             Place::Interior(p) => {
-                *p = surface.carrier.trace(p, step);
+                *p = surface.carrier.trace_between_features(p, step);
                 self.xyz[i] = surface.carrier.xyz(p);
             }
             Place::Boundary(c) => {

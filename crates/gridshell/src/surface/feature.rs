@@ -72,6 +72,7 @@ impl Surface {
             return Ok(notes);
         }
         let Lines { chains, fixed } = self.lines(&anchors, wanted.corner_angle);
+        self.wall_up();
         self.features = chains;
         self.fix_vertices(&fixed);
         notes.extend(self.near_features(wanted.edge_length));
@@ -212,6 +213,14 @@ impl Surface {
         let mut chain = Chain { vertices, segments, ..Chain::default() };
         chain.measure(&self.carrier);
         chain
+    }
+
+    /// Let the carrier know its features.
+    fn wall_up(&mut self) {
+        let carrier = &self.carrier;
+        let wall = |a: u32, b: u32| self.tracks.get(a, b).is_some_and(|track| track.feature);
+        let walls = |c: &[u32; 3]| [0, 1, 2].map(|k| wall(c[k], c[(k + 1) % 3]));
+        self.carrier.walls = carrier.triangles.iter().map(walls).collect();
     }
 
     /// Enter the fixed vertices among the corners of the loops, or among those inside.

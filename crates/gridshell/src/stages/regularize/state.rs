@@ -175,6 +175,9 @@ impl<'a> State<'a> {
     }
 
     fn middle_on_surface(&self, a: u32, b: u32) -> Place {
+        // From the inner one: the place of a node on a line is on the line's left side.
+        let inner = |v: u32| matches!(self.grid.places[v as usize], Place::Interior(_));
+        let (a, b) = if inner(b) && !inner(a) { (b, a) } else { (a, b) };
         let start = self.grid.places[a as usize].surface_point(self.surface);
         let half = (self.grid.xyz[b as usize] - self.grid.xyz[a as usize]) * 0.5;
         Place::Interior(self.surface.carrier.trace(&start, half))
