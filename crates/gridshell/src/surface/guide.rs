@@ -7,6 +7,7 @@
 use super::Curve;
 use super::carrier::NONE;
 use super::cut::{Cutter, SAME};
+use super::locate::nearest_in_triangle;
 use super::track::Track;
 use crate::error::{Error, Result};
 use glam::DVec3;
@@ -123,7 +124,7 @@ impl Cutter<'_> {
             }
             self.tie(next.vertex);
             self.mark(here, next);
-            if way.share >= 1.0 {
+            if way.share >= 1.0 && !self.leads_on(next.vertex, q) {
                 return Ok(Some(next));
             }
             if way.onto_boundary && !self.goes_on(next.vertex, q) {
@@ -140,6 +141,20 @@ impl Cutter<'_> {
 
     fn goes_on(&self, v: u32, q: DVec3) -> bool {
         self.way(v, q).is_some()
+    }
+
+    /// Whether the surface, having turned at `v` (a crease), leads on from there much nearer to `q`.
+    fn leads_on(&self, v: u32, q: DVec3) -> bool {
+        const NEARER: f64 = 0.9;
+        let off = self.xyz(v).distance(q);
+        if off <= OFF * self.length {
+            return false;
+        }
+        self.way(v, q).is_some_and(|way| {
+            let c = self.surface.carrier.corners(way.triangle);
+            let b = nearest_in_triangle(c, q);
+            (c[0] * b[0] + c[1] * b[1] + c[2] * b[2]).distance(q) < NEARER * off
+        })
     }
 
     /// The triangle at `v` that lies towards `q`; None where that is outside.
@@ -284,6 +299,6 @@ struct Way {
 impl Way {
     /// Shares of the triangle's corners at the point below `q`.
     fn bary_of(&self, q: DVec3, cutter: &Cutter) -> [f64; 3] {
-        super::locate::nearest_in_triangle(cutter.surface.carrier.corners(self.triangle), q)
+        nearest_in_triangle(cutter.surface.carrier.corners(self.triangle), q)
     }
 }
