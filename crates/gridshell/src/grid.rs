@@ -23,6 +23,9 @@ pub enum Place {
     Fixed(SurfacePoint),
 }
 
+/// Cosine of the turn of the surface along a sharp member.
+const SHARP: f64 = 0.35;
+
 /// A triangular grid on a design surface. Node `i` is vertex `i` of the mesh; none is missing.
 #[derive(Clone, Debug)]
 pub struct Grid {
@@ -43,10 +46,15 @@ impl Grid {
     /// The members along which the surface turns by more than about seventy degrees: there chords say little
     /// of lengths along the surface, nor tangent planes of straight lines.
     pub fn sharp_members(&self, surface: &Surface) -> Vec<(u32, u32)> {
-        const SHARP: f64 = 0.35;
         let normals: Vec<DVec3> = self.places.iter().map(|p| p.normal(surface)).collect();
         let sharp = |&(a, b): &(u32, u32)| normals[a as usize].dot(normals[b as usize]) < SHARP;
         self.mesh.edges().filter(sharp).collect()
+    }
+
+    /// Whether the member is one of [`Grid::sharp_members`].
+    pub fn is_sharp(&self, surface: &Surface, a: u32, b: u32) -> bool {
+        let normal = |v: u32| self.places[v as usize].normal(surface);
+        normal(a).dot(normal(b)) < SHARP
     }
 
     /// All positions, x y z of one node after the other.

@@ -3,6 +3,7 @@
 //! `+ - * / sqrt` are exact by IEEE 754; everything else goes through `libm` here, so that the same
 //! seed gives the same grid everywhere.
 
+pub(crate) mod chunks;
 pub(crate) mod conjugate;
 pub(crate) mod delaunay;
 pub mod dual;

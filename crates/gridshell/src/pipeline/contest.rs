@@ -85,7 +85,13 @@ pub fn relax(
     let relaxed: Vec<Winner> = candidates
         .into_par_iter()
         .map(|Candidate { start, grid: before, report: regularized, .. }| {
-            let mut grid = before.clone();
+            let trials: usize = std::env::var("POLISH").ok().and_then(|s| s.parse().ok()).unwrap_or(0);
+            let merit = |g: &Grid| crate::merit::Sums::whole(g, surface, length, recipe.measure.lambda);
+            let m0 = merit(&before);
+            let clock = std::time::Instant::now();
+            let (mut grid, rep) = regularize::polish(surface, before.clone(), length, recipe, trials, start as u64, job);
+            let m1 = merit(&grid);
+            eprintln!("{start} merit {:.3} Q {:.3} mu {:.3} -> {:.3} Q {:.3} mu {:.3} r {:.4} {rep} {:.2}s", m0.merit(0.9), m0.fluency(0.9).unwrap_or(0.), m0.mu(), m1.merit(0.9), m1.fluency(0.9).unwrap_or(0.), m1.mu(), m1.members.cv(), clock.elapsed().as_secs_f64());
             let relaxed = relax::relax(surface, &mut grid, &recipe.relax, job);
             let points = score(&compare(&grid, surface, length, &recipe.measure));
             Winner { start, before, regularized, grid, relaxed, points }

@@ -219,21 +219,32 @@ impl Laplacian {
         Laplacian { rows, diagonal, fixed: vec![false; n] }
     }
 
-    fn apply(&self, x: &[DVec2]) -> Vec<DVec2> {
+    fn apply(&self, x: &[DVec2], y: &mut [DVec2]) {
         let row = |i: usize| {
             let off: DVec2 = self.rows[i].iter().map(|&(j, w)| x[j as usize] * w).sum();
             if self.fixed[i] { DVec2::ZERO } else { x[i] * self.diagonal[i] - off }
         };
-        (0..x.len()).map(row).collect()
+        for (i, y) in y.iter_mut().enumerate() {
+            *y = row(i);
+        }
     }
 
     /// At most `steps` conjugate-gradient steps on L x = right, both coordinates at once, from `x`.
     fn solve(&self, right: &[DVec2], x: &mut [DVec2], steps: usize) {
-        let residual: Vec<DVec2> = right.iter().zip(self.apply(x)).map(|(b, a)| *b - a).collect();
+        let mut residual = vec![DVec2::ZERO; x.len()];
+        self.apply(x, &mut residual);
+        for (r, b) in residual.iter_mut().zip(right) {
+            *r = *b - *r;
+        }
         // Against the right side too: a good start is at rounding level already.
         let whole: f64 = right.iter().zip(&self.diagonal).map(|(v, d)| v.dot(*v / *d)).sum();
         let enough = |first: f64| 1e-12 * whole.max(first);
-        let apply = |v: &[DVec2]| self.apply(v);
-        conjugate_gradients(x, residual, &self.diagonal, apply, DVec2::dot, enough, steps);
+        let apply = |v: &[DVec2], y: &mut [DVec2]| self.apply(v, y);
+        let precondition = |v: &[DVec2], y: &mut [DVec2]| {
+            for ((y, v), d) in y.iter_mut().zip(v).zip(&self.diagonal) {
+                *y = *v / *d;
+            }
+        };
+        conjugate_gradients(x, residual, apply, precondition, enough, steps);
     }
 }

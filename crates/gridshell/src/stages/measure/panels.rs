@@ -3,6 +3,7 @@
 use super::Shape;
 use crate::grid::Grid;
 use crate::math::trig;
+use crate::merit;
 use glam::DVec3;
 
 pub(super) struct Panels {
@@ -29,7 +30,7 @@ pub(super) fn measure(grid: &Grid, normals: &[DVec3]) -> Panels {
     let mut at_border = 0;
     for t in grid.mesh.triangles() {
         let p = t.map(|v| grid.xyz[v as usize]);
-        let q = shape_index(p);
+        let q = merit::shape(p);
         panels.count += 1;
         panels.area += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).length();
         panels.shape.mean += q;
@@ -48,18 +49,6 @@ pub(super) fn measure(grid: &Grid, normals: &[DVec3]) -> Panels {
     panels.border_shape_mean =
         if at_border > 0 { panels.border_shape_mean / f64::from(at_border) } else { 1.0 };
     panels
-}
-
-/// q of Eq. 25; 0 for a panel without extent.
-fn shape_index(p: [DVec3; 3]) -> f64 {
-    let sides = (p[1] - p[0]).length_squared()
-        + (p[2] - p[1]).length_squared()
-        + (p[0] - p[2]).length_squared();
-    if sides == 0.0 {
-        return 0.0;
-    }
-    // Twice the area, hence 2 sqrt(3) for the 4 sqrt(3) of the paper.
-    2.0 * 3f64.sqrt() * (p[1] - p[0]).cross(p[2] - p[0]).length() / sides
 }
 
 /// Whether the panel faces against the surface, or lies folded over a neighbour though the surface does

@@ -1,6 +1,8 @@
 //! Regularize (Section 5): change connectivity so that fewer nodes are irregular.
 
+mod local;
 mod paper;
+mod polish;
 mod search;
 mod state;
 
@@ -53,5 +55,20 @@ pub fn regularize(
             search::anneal(&mut state, &recipe.regularize, recipe.pack.k_n, seed, job)
         }
     };
+    (state.into_grid(), report)
+}
+
+/// Polish a regularized grid by its merit, in so many trials.
+pub fn polish(
+    surface: &Surface,
+    grid: Grid,
+    length: f64,
+    recipe: &Recipe,
+    trials: usize,
+    seed: u64,
+    job: &Job,
+) -> (Grid, Report) {
+    let mut state = State::new(surface, grid, length, recipe.measure.lambda);
+    let report = polish::polish(&mut state, recipe, trials, seed, job);
     (state.into_grid(), report)
 }

@@ -30,8 +30,9 @@ pub struct State<'a> {
     listed: Vec<u32>,
     undo: Undo,
     moved: Vec<(u32, Place, DVec3)>,
-    /// Marks of the last region gathered.
+    /// Marks of the last region gathered, and where each vertex stands in it.
     mark: Vec<u32>,
+    slot: Vec<u32>,
     stamp: u32,
 }
 
@@ -52,6 +53,7 @@ impl<'a> State<'a> {
             undo: Undo::default(),
             moved: Vec::new(),
             mark: vec![0; n],
+            slot: vec![0; n],
             stamp: 0,
         };
         state.refresh_all();
@@ -142,6 +144,7 @@ impl<'a> State<'a> {
             self.deviation.resize(n, 0);
             self.listed.resize(n, UNLISTED);
             self.mark.resize(n, 0);
+            self.slot.resize(n, 0);
         }
         self.set_place(m, place);
         Ok(m)
@@ -202,6 +205,7 @@ impl<'a> State<'a> {
         for &v in seeds {
             if self.grid.mesh.is_alive(v) && self.mark[v as usize] != self.stamp {
                 self.mark[v as usize] = self.stamp;
+                self.slot[v as usize] = region.len() as u32;
                 region.push(v);
             }
         }
@@ -212,6 +216,7 @@ impl<'a> State<'a> {
                 for &w in self.grid.mesh.ring(region[i]) {
                     if self.mark[w as usize] != self.stamp {
                         self.mark[w as usize] = self.stamp;
+                        self.slot[w as usize] = region.len() as u32;
                         region.push(w);
                     }
                 }
@@ -236,7 +241,7 @@ impl<'a> State<'a> {
     }
 
     /// The chord from `v` to `w`, and its length (where the surface bends sharply: of the arc above it).
-    fn member(&self, v: u32, w: u32) -> (DVec3, f64) {
+    pub fn member(&self, v: u32, w: u32) -> (DVec3, f64) {
         let chord = self.grid.xyz[w as usize] - self.grid.xyz[v as usize];
         if !self.bends {
             return (chord, chord.length());
@@ -247,9 +252,7 @@ impl<'a> State<'a> {
 
     /// Sweep over the vertices, moving each to where its members are nearest to the wanted length.
     pub fn relax(&mut self, region: &[u32], sweeps: usize) {
-        for &v in region {
-            self.moved.push((v, self.grid.places[v as usize], self.grid.xyz[v as usize]));
-        }
+        self.remember(region);
         let least = 1e-9 * self.length;
         for _ in 0..sweeps {
             for &v in region {
@@ -276,6 +279,28 @@ impl<'a> State<'a> {
         self.mark[v as usize] == self.stamp
     }
 
+    /// Where `v` stands in the region last gathered; None outside.
+    pub fn slot_in_region(&self, v: u32) -> Option<usize> {
+        self.in_region(v).then(|| self.slot[v as usize] as usize)
+    }
+
+    /// Whether the surface turns so much along this member that lines are not held straight across it.
+    pub fn is_sharp(&self, a: u32, b: u32) -> bool {
+        self.bends && self.grid.is_sharp(self.surface, a, b)
+    }
+
+    /// Keep the places of these vertices for a possible roll back.
+    pub fn remember(&mut self, region: &[u32]) {
+        for &v in region {
+            self.moved.push((v, self.grid.places[v as usize], self.grid.xyz[v as usize]));
+        }
+    }
+
+    /// Go on from another grid.
+    pub fn replace(&mut self, grid: Grid) {
+        *self = State::new(self.surface, grid, self.length, self.lambda);
+    }
+
     /// Whether a panel at one of these vertices is a sliver (shape below `least`) or turned over.
     pub fn has_bad_panel(&self, vertices: &[u32], least: f64) -> bool {
         let xyz = &self.grid.xyz;
@@ -295,6 +320,11 @@ impl<'a> State<'a> {
     /// The vertices whose rings changed since the last commit.
     pub fn touched(&self) -> Few {
         self.undo.touched().collect()
+    }
+
+    /// Whether the edits since the last commit left connectivity as it was.
+    pub fn is_idle(&self) -> bool {
+        self.undo.is_idle(&self.grid.mesh)
     }
 
     /// Keep the changes since the last commit; adjusted degrees must have been refreshed.
