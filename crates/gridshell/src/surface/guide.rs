@@ -161,6 +161,7 @@ impl Cutter<'_> {
     fn way(&self, v: u32, q: DVec3) -> Option<Way> {
         // Along an edge, either triangle beside it will do.
         const SLACK: f64 = 1e-7;
+        const ABOVE: f64 = 1e-9;
         let carrier = &self.surface.carrier;
         let from = self.xyz(v);
         let mut best: Option<(f64, Way)> = None;
@@ -170,7 +171,8 @@ impl Cutter<'_> {
             let (a, b) = (c[edge], c[(edge + 1) % 3]);
             let inwards = carrier.face_normal(t).cross(b - a);
             let (here, there) = ((from - a).dot(inwards), (q - a).dot(inwards));
-            if there >= here {
+            // As good as straight above: the triangle leads nowhere.
+            if here - there <= ABOVE * inwards.length() * self.length {
                 continue;
             }
             let share = here / (here - there);
