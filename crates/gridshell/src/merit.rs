@@ -161,7 +161,8 @@ impl Sums {
     /// single members and panels. Higher is better.
     pub fn merit(&self, lambda: f64) -> f64 {
         let over = |x: f64, limit: f64| (x - limit).max(0.0);
-        let border_shape = if self.border_panels > 0.0 { self.border_shape / self.border_panels } else { 1.0 };
+        let border_shape =
+            if self.border_panels > 0.0 { self.border_shape / self.border_panels } else { 1.0 };
         let held_back = 4.0 * over(self.members.cv(), 0.055)
             + 1.5 * over(self.border_members.cv(), 0.11)
             + 3.0 * over(0.96, border_shape)

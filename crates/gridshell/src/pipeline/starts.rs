@@ -81,8 +81,8 @@ fn packing(surface: &Surface, length: f64, recipe: &Recipe, seed: u64, job: &Job
     let fixed = surface.fixed.clone();
     let mut bubbles = Bubbles { boundary, features, fixed, interior: Vec::new() };
     let (held, rim) = (bubbles.held() - bubbles.boundary.len(), bubbles.boundary.len());
-    let count = pack::interior_count(surface, rim, held, length, recipe.pack.k_n);
-    let xyz = bubbles.xyz(surface);
+    let count = pack::interior_count(surface, rim, length, recipe.pack.k_n);
+    let (count, xyz) = (count.saturating_sub(held), bubbles.xyz(surface));
     bubbles.interior = pack::scatter(surface, count, &xyz, CLEAR * length, &mut rng);
     let report = pack::settle(surface, &mut bubbles, length, &recipe.pack, job);
     Start { bubbles, seed, report: Some(report), grid: None }

@@ -49,7 +49,8 @@ impl Lattice {
         let features = place_on_features(surface, &lines, &counts);
         let fixed = surface.fixed.clone();
         let held = features.len() + fixed.len();
-        let wanted = interior_count(surface, boundary.len(), held, length, k_n) as f64;
+        let inside = interior_count(surface, boundary.len(), length, k_n);
+        let wanted = inside.saturating_sub(held) as f64;
         let mut step = length;
         let mut interior = self.interior(surface, chart, length, step);
         // The strip kept clear along the border and the chart's distortion cost nodes: draw the lattice

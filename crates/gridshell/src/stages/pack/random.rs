@@ -4,19 +4,13 @@ use crate::surface::{Surface, SurfacePoint};
 use glam::DVec3;
 
 /// Number of interior bubbles for an edge length, Eq. 1 with the boundary and the Euler characteristic
-/// accounted for: n = k_n A / (2 A0) - n_b / 2 + chi (the perfect hexagon of 61 nodes asks for this), less the
-/// `held` ones that features and anchors have inside already.
-pub fn interior_count(
-    surface: &Surface,
-    boundary: usize,
-    held: usize,
-    edge_length: f64,
-    k_n: f64,
-) -> usize {
+/// accounted for: n = k_n A / (2 A0) - n_b / 2 + chi (the perfect hexagon of 61 nodes asks for this); those
+/// on features and at anchors are among them.
+pub fn interior_count(surface: &Surface, boundary: usize, edge_length: f64, k_n: f64) -> usize {
     let triangle = 3f64.sqrt() / 4.0 * edge_length * edge_length;
     let chi = surface.euler_characteristic() as f64;
     let count = k_n * surface.area / (2.0 * triangle) - boundary as f64 / 2.0 + chi;
-    (count - held as f64).round().max(0.0) as usize
+    count.round().max(0.0) as usize
 }
 
 /// Draws of a point that keeps off the border, at most: a strip may have no such place.

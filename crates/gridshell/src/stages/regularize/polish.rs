@@ -20,11 +20,17 @@ const LEAST_SHAPE: f64 = 0.55;
 const ROUNDS: usize = 6;
 /// Temperatures, first and last, as shares of the merit.
 const TEMPERATURE: [f64; 2] = [0.7, 0.05];
-static TEMP: std::sync::LazyLock<[f64; 2]> = std::sync::LazyLock::new(|| std::env::var("TEMP").ok().map_or(TEMPERATURE, |s| { let v: Vec<f64> = s.split(',').map(|x| x.parse().unwrap()).collect(); [v[0], v[1]] }));
+static TEMP: std::sync::LazyLock<[f64; 2]> = std::sync::LazyLock::new(|| {
+    std::env::var("TEMP").ok().map_or(TEMPERATURE, |s| {
+        let v: Vec<f64> = s.split(',').map(|x| x.parse().unwrap()).collect();
+        [v[0], v[1]]
+    })
+});
 /// What an operation may at best win by lengths and lines, as a share of the merit.
 const HOPE: f64 = 4.0;
 
-static HP: std::sync::LazyLock<f64> = std::sync::LazyLock::new(|| std::env::var("HP").ok().map_or(HOPE, |s| s.parse().unwrap()));
+static HP: std::sync::LazyLock<f64> =
+    std::sync::LazyLock::new(|| std::env::var("HP").ok().map_or(HOPE, |s| s.parse().unwrap()));
 /// Polish `state` by `trials` trials.
 pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job: &Job) -> Report {
     let mut report = Report::default();
@@ -33,7 +39,18 @@ pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job:
         let b = (polish.merit, polish.total.fluency(0.9).unwrap_or(0.0), polish.total.mu());
         polish.balance_all(3);
         if std::env::var("DBG").is_ok() {
-        eprintln!("   merit round {round}: {b:.3?} -> {:.3} Q {:.3} mu {:.3} r {:.4} bcv {:.3} bq {:.3} exc {:.4} accepted {}", polish.merit, polish.total.fluency(0.9).unwrap_or(0.0), polish.total.mu(), polish.total.members.cv(), polish.total.border_members.cv(), polish.total.border_shape / polish.total.border_panels, polish.total.excess, report.flips+report.collapses+report.splits);}
+            eprintln!(
+                "   merit round {round}: {b:.3?} -> {:.3} Q {:.3} mu {:.3} r {:.4} bcv {:.3} bq {:.3} exc {:.4} accepted {}",
+                polish.merit,
+                polish.total.fluency(0.9).unwrap_or(0.0),
+                polish.total.mu(),
+                polish.total.members.cv(),
+                polish.total.border_members.cv(),
+                polish.total.border_shape / polish.total.border_panels,
+                polish.total.excess,
+                report.flips + report.collapses + report.splits
+            );
+        }
         if round == 0 || polish.merit > polish.best.0 {
             polish.best = (polish.merit, polish.state.grid.clone());
         }
@@ -169,7 +186,9 @@ impl<'a, 'b> Polish<'a, 'b> {
                 .filter_map(|(v, w)| Some((self.state.flip_change(v, w)?, v, w)))
                 .min_by(|x, y| x.0.total_cmp(&y.0));
             match best {
-                Some((gain, v, w)) if gain < -1e-9 => plan.make(self.state, Operation::Flip, v, w)?,
+                Some((gain, v, w)) if gain < -1e-9 => {
+                    plan.make(self.state, Operation::Flip, v, w)?
+                }
                 _ => break,
             }
         }
@@ -250,5 +269,7 @@ fn residual(state: &State, region: &[u32]) -> f64 {
 
 /// The sums over the region last gathered.
 fn sums(state: &State, region: &[u32]) -> Sums {
-    Sums::over(&state.grid, state.surface, state.length, state.lambda, region, |v| state.in_region(v))
+    Sums::over(&state.grid, state.surface, state.length, state.lambda, region, |v| {
+        state.in_region(v)
+    })
 }
