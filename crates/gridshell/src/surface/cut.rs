@@ -108,7 +108,7 @@ impl<'a> Cutter<'a> {
         let near = |k: usize| self.xyz(corners[k]).distance(p) <= SAME * self.length;
         let vertex = if let Some(k) = (0..3).find(|&k| near(k)) {
             corners[k]
-        } else if let Some(k) = self.line_near(t, p) {
+        } else if let Some(k) = self.line_near(t, p, ON_LINE) {
             self.put_on_line(t, k, p)
         } else {
             let spot = self.spot(t, bary, p);
@@ -118,29 +118,26 @@ impl<'a> Cutter<'a> {
         vertex
     }
 
-    /// The edge of triangle `t` that is on the boundary or on a feature and nearest to `p`, if it is near.
-    fn line_near(&self, t: u32, p: DVec3) -> Option<usize> {
+    /// The edge of triangle `t` that is on the boundary or on a feature and nearest to `p`, if that is hardly
+    /// farther from it, within this share of l0, than the surface.
+    fn line_near(&self, t: u32, p: DVec3, share: f64) -> Option<usize> {
         let carrier = &self.surface.carrier;
-        let c = carrier.corners(t);
-        let distance = |k: usize| {
-            let (a, d) = (c[k], c[(k + 1) % 3] - c[k]);
-            let f = ((p - a).dot(d) / d.length_squared()).clamp(0.0, 1.0);
-            (a + d * f).distance(p)
-        };
-        let foot = nearest_in_triangle(c, p);
-        let off = (c[0] * foot[0] + c[1] * foot[1] + c[2] * foot[2]).distance(p);
         let is_line = |k: usize| {
             let corners = carrier.triangles[t as usize];
             let track = self.surface.tracks.get(corners[k], corners[(k + 1) % 3]);
             carrier.neighbors[t as usize][k] == NONE || track.is_some_and(|track| track.feature)
         };
+        let distance = |k: usize| self.foot_on_edge(t, k, p).1.distance(p);
         let lines = (0..3).filter(|&k| is_line(k)).map(|k| (distance(k), k));
         let (nearest, k) = lines.min_by(|x, y| x.0.total_cmp(&y.0))?;
-        (nearest <= off + ON_LINE * self.length).then_some(k)
+        let bary = nearest_in_triangle(carrier.corners(t), p);
+        let off = self.spot(t, bary, p).xyz.distance(p);
+        (nearest <= off + share * self.length).then_some(k)
     }
 
-    /// Split edge `k` of triangle `t` where it is nearest to `p`, or take its end.
-    pub(super) fn put_on_line(&mut self, t: u32, k: usize, p: DVec3) -> u32 {
+    /// The point of edge `k` of triangle `t`, or of the curve behind it, that is nearest to `p`: the share of
+    /// the edge, and the point.
+    fn foot_on_edge(&self, t: u32, k: usize, p: DVec3) -> (f64, DVec3) {
         let corners = self.surface.carrier.triangles[t as usize];
         let (a, b) = (corners[k], corners[(k + 1) % 3]);
         let d = self.xyz(b) - self.xyz(a);
@@ -152,7 +149,22 @@ impl<'a> Cutter<'a> {
             }
             None => self.xyz(a) + d * f,
         };
-        for v in [a, b] {
+        (f, xyz)
+    }
+
+    /// As [`insert`](Cutter::insert), but near a feature or the boundary the vertex is put on it.
+    pub(super) fn insert_end(&mut self, spot: &Spot) -> u32 {
+        match self.line_near(spot.triangle, spot.xyz, ON_LINE) {
+            Some(k) => self.put_on_line(spot.triangle, k, spot.xyz),
+            None => self.insert(spot),
+        }
+    }
+
+    /// Split edge `k` of triangle `t` where it is nearest to `p`, or take its end.
+    pub(super) fn put_on_line(&mut self, t: u32, k: usize, p: DVec3) -> u32 {
+        let corners = self.surface.carrier.triangles[t as usize];
+        let (f, xyz) = self.foot_on_edge(t, k, p);
+        for v in [corners[k], corners[(k + 1) % 3]] {
             if self.xyz(v).distance(xyz) <= SAME * self.length {
                 return v;
             }
@@ -243,6 +255,9 @@ impl<'a> Cutter<'a> {
         {
             return v;
         }
+        if let Some(k) = self.line_near(t, spot.xyz, SAME) {
+            return self.put_on_line(t, k, spot.xyz);
+        }
         let (largest, smallest) = extremes(spot.bary);
         if spot.bary[largest] > AT_CORNER && self.move_vertex(corners[largest], spot) {
             return corners[largest];
@@ -253,9 +268,6 @@ impl<'a> Cutter<'a> {
         let open = self.surface.carrier.neighbors[t as usize][k] == NONE;
         let tracked = self.surface.tracks.get(a, b).is_some() || open;
         let share = spot.bary[(k + 1) % 3] / (spot.bary[k] + spot.bary[(k + 1) % 3]);
-        if spot.bary[smallest] < ON_EDGE && tracked {
-            return self.put_on_line(t, k, spot.xyz);
-        }
         if spot.bary[smallest] < on_edge && !tracked && self.edge_bends(t, k, spot.xyz) {
             return self.split_edge(t, k, share, spot.xyz);
         }

@@ -21,6 +21,15 @@ const MOST_CROSSINGS: usize = 1_000_000;
 /// Secant steps to where a guide crosses an edge.
 const SECANT_STEPS: usize = 6;
 
+/// From one point of a guide to the next.
+#[derive(Clone, Copy)]
+struct Line {
+    p: DVec3,
+    q: DVec3,
+    /// The guide ends with it.
+    is_last: bool,
+}
+
 /// A place on the way along a guide.
 #[derive(Clone, Copy)]
 struct Foot {
@@ -60,9 +69,11 @@ impl Cutter<'_> {
             if off > self.length {
                 return fault(w[0], format!("is {off:.3} m off the surface"));
             }
-            let Some(next) = self.cut_line(here, w[0], w[1])? else {
-                // Where it met the boundary; the rest is outside.
-                let end = self.last_on(w[0], w[1]);
+            let line = Line { p: w[0], q: w[1], is_last: k + 2 == points.len() };
+            here = self.cut_line(here, line)?;
+            if self.is_outside(here.vertex, w[1]) {
+                // It met the boundary; the rest is outside.
+                let end = self.xyz(here.vertex);
                 let rest: f64 = end.distance(w[1])
                     + points[k + 1..].windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
                 if rest > self.length {
@@ -76,8 +87,7 @@ impl Cutter<'_> {
                     ));
                 }
                 return Ok(notes);
-            };
-            here = next;
+            }
         }
         let last = points[points.len() - 1];
         let off = self.xyz(here.vertex).distance(last);
@@ -96,40 +106,41 @@ impl Cutter<'_> {
         Ok(notes)
     }
 
-    /// Where on the line from `p` to `q` the boundary was met: the foot of the newest vertex.
-    fn last_on(&self, p: DVec3, q: DVec3) -> DVec3 {
-        let x = self.surface.carrier.points[self.surface.carrier.points.len() - 1];
-        let f = (x - p).dot(q - p) / (q - p).length_squared().max(f64::MIN_POSITIVE);
-        p.lerp(q, f.clamp(0.0, 1.0))
+    /// Whether `q` lies beyond the boundary that was met at `v`.
+    fn is_outside(&self, v: u32, q: DVec3) -> bool {
+        let on_boundary =
+            self.fan(v).iter().any(|&(t, _)| self.surface.carrier.neighbors[t as usize].contains(&NONE));
+        let normal: DVec3 = self.fan(v).iter().map(|&(t, _)| self.surface.carrier.face_normal(t)).sum();
+        let off = q - self.xyz(v);
+        let aside = off - normal.normalize_or_zero() * off.dot(normal.normalize_or_zero());
+        on_boundary && aside.length() > SAME * self.length && self.way(v, q).is_none()
     }
 
-    /// Cut the line from `p` to `q`, on which the walk stands at `here`; gives where it ends, or None where that
-    /// is beyond the boundary.
-    fn cut_line(&mut self, mut here: Foot, p: DVec3, q: DVec3) -> Result<Option<Foot>> {
+    /// Cut a line on which the walk stands at `here`; gives where it ends, which is on the boundary where
+    /// it leads out.
+    fn cut_line(&mut self, mut here: Foot, line: Line) -> Result<Foot> {
+        let Line { p, q, is_last } = line;
         self.tie(here.vertex);
         for _ in 0..MOST_CROSSINGS {
             if self.xyz(here.vertex).distance(q) <= SAME * self.length {
-                return Ok(Some(here));
+                return Ok(here);
             }
-            let Some(way) = self.way(here.vertex, q) else { return Ok(None) };
+            let Some(way) = self.way(here.vertex, q) else { return Ok(here) };
             let next = if way.share >= 1.0 {
                 let spot = self.spot(way.triangle, way.bary_of(q, self), q);
-                Foot { vertex: self.insert(&spot), aim: q }
+                let vertex = if is_last { self.insert_end(&spot) } else { self.insert(&spot) };
+                Foot { vertex, aim: q }
             } else {
                 self.cross(&way, p, q)
             };
             if next.vertex == here.vertex {
                 // The line's end is nearer to this vertex than points are told apart.
-                return Ok(Some(here));
+                return Ok(here);
             }
             self.tie(next.vertex);
             self.mark(here, next);
             if way.share >= 1.0 && !self.leads_on(next.vertex, q) {
-                return Ok(Some(next));
-            }
-            if way.onto_boundary && !self.goes_on(next.vertex, q) {
-                let done = self.xyz(next.vertex).distance(q) <= SAME * self.length;
-                return Ok(done.then_some(next));
+                return Ok(next);
             }
             here = next;
         }
@@ -137,10 +148,6 @@ impl Cutter<'_> {
             "a guide does not come to an end near ({:.3}, {:.3}, {:.3})",
             q.x, q.y, q.z
         )))
-    }
-
-    fn goes_on(&self, v: u32, q: DVec3) -> bool {
-        self.way(v, q).is_some()
     }
 
     /// Whether the surface, having turned at `v` (a crease), leads on from there much nearer to `q`.
@@ -180,8 +187,7 @@ impl Cutter<'_> {
             let f = (crossing - a).dot(b - a) / (b - a).length_squared();
             let margin = f.min(1.0 - f);
             if margin >= -SLACK && best.as_ref().is_none_or(|(m, _)| margin > *m) {
-                let onto_boundary = carrier.neighbors[t as usize][edge] == NONE;
-                best = Some((margin, Way { triangle: t, edge, share, f, onto_boundary }));
+                best = Some((margin, Way { triangle: t, edge, share, f }));
             }
         }
         best.map(|b| b.1)
@@ -295,7 +301,6 @@ struct Way {
     share: f64,
     /// Where on the edge.
     f: f64,
-    onto_boundary: bool,
 }
 
 impl Way {
