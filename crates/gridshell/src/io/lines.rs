@@ -116,13 +116,17 @@ fn check_count(line: &Line, count: usize) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     fn guides(name: &str, text: &str) -> std::result::Result<Vec<Vec<DVec3>>, String> {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join(name);
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let own = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let path = std::env::temp_dir().join(format!("gridshell-{}-{}-{name}", own.0, own.1));
         std::fs::write(&path, text).unwrap();
         let said = |e: crate::Error| e.to_string().replace(&path.display().to_string(), name);
-        read_guides(&path).map_err(said)
+        let read = read_guides(&path).map_err(said);
+        std::fs::remove_file(&path).unwrap();
+        read
     }
 
     #[test]

@@ -108,9 +108,12 @@ impl Cutter<'_> {
 
     /// Whether `q` lies beyond the boundary that was met at `v`.
     fn is_outside(&self, v: u32, q: DVec3) -> bool {
-        let on_boundary =
-            self.fan(v).iter().any(|&(t, _)| self.surface.carrier.neighbors[t as usize].contains(&NONE));
-        let normal: DVec3 = self.fan(v).iter().map(|&(t, _)| self.surface.carrier.face_normal(t)).sum();
+        let on_boundary = self
+            .fan(v)
+            .iter()
+            .any(|&(t, _)| self.surface.carrier.neighbors[t as usize].contains(&NONE));
+        let normal: DVec3 =
+            self.fan(v).iter().map(|&(t, _)| self.surface.carrier.face_normal(t)).sum();
         let off = q - self.xyz(v);
         let aside = off - normal.normalize_or_zero() * off.dot(normal.normalize_or_zero());
         on_boundary && aside.length() > SAME * self.length && self.way(v, q).is_none()

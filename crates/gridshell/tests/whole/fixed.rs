@@ -184,7 +184,7 @@ fn members_follow_the_ridge_of_a_roof() {
             let run = kept(&model, &recipe);
             assert_followed(&run, &ridge);
             // A guide over the ridge meets it in a node.
-            let guide: Vec<Point> = vec![[5.0, 1.0, 0.7], [6.0, 4.5, 3.0], [7.0, 8.0, 0.7]];
+            let guide: Vec<Point> = vec![[5.0, 0.0, 0.0], [6.0, 4.5, 3.0], [7.0, 9.0, 0.0]];
             let run = kept(&model, &Recipe { guides: vec![guide], ..recipe });
             assert_followed(&run, &ridge);
             assert_anchored(&run, [6.0, 4.5, 3.0]);
