@@ -178,9 +178,10 @@ impl<'a> State<'a> {
     }
 
     fn middle_on_surface(&self, a: u32, b: u32) -> Place {
-        // From the inner one: the place of a node on a line is on the line's left side.
-        let inner = |v: u32| matches!(self.grid.places[v as usize], Place::Interior(_));
-        let (a, b) = if inner(b) && !inner(a) { (b, a) } else { (a, b) };
+        // Not from a feature: the place of a node there is on its left side, which may be the wrong one.
+        let on_feature =
+            |v: u32| matches!(self.grid.places[v as usize], Place::Feature(_) | Place::Fixed(_));
+        let (a, b) = if on_feature(a) && !on_feature(b) { (b, a) } else { (a, b) };
         let start = self.grid.places[a as usize].surface_point(self.surface);
         let half = (self.grid.xyz[b as usize] - self.grid.xyz[a as usize]) * 0.5;
         Place::Interior(self.surface.carrier.trace(&start, half))
@@ -355,5 +356,101 @@ impl<'a> State<'a> {
         self.grid.places = old.iter().map(|&v| self.grid.places[v as usize]).collect();
         self.grid.xyz = old.iter().map(|&v| self.grid.xyz[v as usize]).collect();
         self.grid
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bubbles::Bubbles;
+    use crate::stages::{pack, triangulate};
+    use crate::surface::{Fixtures, Sampling, builtin};
+
+    const LENGTH: f64 = 0.7;
+
+    /// The flat hexagon with a guide from (-2, -1) to (2, 1.5) and an anchor at (0, -2).
+    fn fixed() -> Surface {
+        let sampling = Sampling { max_edge: 0.35, chord_error: 1e-3, corner_angle: 0.5 };
+        let model = builtin::model("hexagon").expect("built in");
+        let mut surface = model.surface(&sampling).expect("a surface");
+        let guide = vec![DVec3::new(-2.0, -1.0, 0.0), DVec3::new(2.0, 1.5, 0.0)];
+        let wanted = Fixtures {
+            crease_angle: None,
+            guides: &[guide],
+            anchors: &[DVec3::new(0.0, -2.0, 0.0)],
+            corner_angle: 0.5,
+            edge_length: LENGTH,
+        };
+        surface.fix(&wanted).expect("guide and anchor are on the surface");
+        surface
+    }
+
+    fn grid(surface: &Surface) -> Grid {
+        let counts = |pieces: &[pack::boundary::Piece]| -> Vec<usize> {
+            pieces.iter().map(|p| pack::boundary::member_count(p, LENGTH)).collect()
+        };
+        let pieces = pack::boundary::pieces(surface);
+        let boundary = pack::boundary::place(surface, &pieces, &counts(&pieces), 0.0);
+        let lines = pack::boundary::feature_pieces(surface);
+        let features = pack::boundary::place_on_features(surface, &lines, &counts(&lines));
+        let fixed = surface.fixed.clone();
+        let mut bubbles = Bubbles { boundary, features, fixed, interior: Vec::new() };
+        let held = bubbles.xyz(surface);
+        let mut rng = fastrand::Rng::with_seed(3);
+        bubbles.interior = pack::scatter(surface, 80, &held, 0.5 * LENGTH, &mut rng);
+        triangulate::triangulate(surface, &bubbles).expect("a manifold").0
+    }
+
+    /// The nodes on the guide are joined by its members in order, and the anchor is where it was.
+    fn assert_kept(grid: &Grid) {
+        let (start, end) = (DVec3::new(-2.0, -1.0, 0.0), DVec3::new(2.0, 1.5, 0.0));
+        let along = (end - start).normalize();
+        let on: Vec<u32> =
+            grid.mesh.vertices().filter(|&v| !grid.mesh.along_features(v).is_empty()).collect();
+        let s = |v: u32| (grid.xyz[v as usize] - start).dot(along);
+        let mut sorted = on.clone();
+        sorted.sort_by(|&a, &b| s(a).total_cmp(&s(b)));
+        for &v in &sorted {
+            let x = grid.xyz[v as usize];
+            assert!((start + along * s(v)).distance(x) < 1e-9, "{x} is off the guide");
+        }
+        for w in sorted.windows(2) {
+            assert!(grid.mesh.is_feature_edge(w[0], w[1]), "{} {}", s(w[0]), s(w[1]));
+        }
+        let ends = [sorted[0], sorted[sorted.len() - 1]].map(|v| grid.xyz[v as usize]);
+        assert!(ends[0].distance(start) < 1e-12 && ends[1].distance(end) < 1e-12);
+        let anchor = DVec3::new(0.0, -2.0, 0.0);
+        assert!(grid.mesh.vertices().any(|v| grid.xyz[v as usize].distance(anchor) < 1e-12));
+    }
+
+    #[test]
+    fn any_edits_and_moves_keep_guides_and_anchors() {
+        let surface = fixed();
+        let mut state = State::new(&surface, grid(&surface), LENGTH, 0.9);
+        assert_kept(&state.grid);
+        let mut rng = fastrand::Rng::with_seed(4);
+        for _ in 0..3000 {
+            let alive: Vec<u32> = state.grid.mesh.vertices().collect();
+            let a = alive[rng.usize(..alive.len())];
+            let ring = state.grid.mesh.ring(a);
+            let b = ring[rng.usize(..ring.len())];
+            let done = match rng.u8(..3) {
+                0 => state.flip(a, b).is_ok(),
+                1 => alive.len() < 250 && state.split(a, b).is_ok(),
+                _ => alive.len() > 80 && state.collapse(a, b).is_ok(),
+            };
+            if done {
+                let touched = state.touched();
+                let alive = state.region(&touched, 0);
+                state.relax(&alive, 2);
+            }
+            if rng.u8(..3) == 0 {
+                state.roll_back()
+            } else {
+                state.commit()
+            }
+            state.grid.mesh.check().expect("valid");
+            assert_kept(&state.grid);
+        }
     }
 }

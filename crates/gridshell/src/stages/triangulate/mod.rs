@@ -193,7 +193,7 @@ fn vertex_places(surface: &Surface) -> Vec<Place> {
         }
     }
     for (c, chain) in surface.features.iter().enumerate() {
-        let inner = if chain.is_closed() { 0 } else { 1 };
+        let inner = usize::from(!chain.is_closed());
         for k in inner..chain.vertices.len() - inner {
             let at = ChainPoint { chain: c as u32, s: chain.arc[k] };
             places[chain.vertices[k] as usize] = Place::Feature(at);
