@@ -1,9 +1,11 @@
 //! The balance of a grid: Gauss-Newton on the spread of lengths and the bending of lines.
 //!
-//! Minimises  sum over members (l / l_mean - 1)^2
+//! Minimises  sum over members w (l / l_mean - 1)^2
 //!          + s * sum over regular interior nodes and their three lines |(x_j + x_(j+3) - 2 x_i)_t|^2 / l_mean^2
 //! where t is the part in the tangent plane: a line that bends only with the surface costs nothing, and when
 //! all three lines of a node run straight its opposite angles are equal (the two parts of Eq. 28 to 30).
+//! The weight w is 1, or more at members that touch the border. Where lengths are to vary, l is a member's length
+//! over the mean scale of its ends, and so are the two halves of a line.
 //! Nodes move in their tangent plane, boundary nodes along the boundary, corners not at all: the linear
 //! system is solved for 3D moves projected to those spaces, by preconditioned conjugate gradients.
 
@@ -32,6 +34,8 @@ const BACK_OFFS: usize = 8;
 pub struct Options {
     /// Weight s of straightness.
     pub straightness: f64,
+    /// Weight w of the lengths of members that touch the border.
+    pub border: f64,
     /// Balanced when the largest move in a step falls below this share of the mean length.
     pub settled: f64,
     /// Most Gauss-Newton steps.

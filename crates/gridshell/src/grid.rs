@@ -43,6 +43,19 @@ impl Grid {
         self.xyz[a as usize].distance(self.xyz[b as usize])
     }
 
+    /// Wanted length of the member between `a` and `b` over the mean one: the mean of its ends'.
+    pub fn scale(&self, surface: &Surface, a: u32, b: u32) -> f64 {
+        if surface.scale.is_empty() {
+            return 1.0;
+        }
+        0.5 * (self.places[a as usize].scale(surface) + self.places[b as usize].scale(surface))
+    }
+
+    /// Length of the member between `a` and `b` over its scale, metres: l0 is what is wanted of all members.
+    pub fn scaled_length(&self, surface: &Surface, a: u32, b: u32) -> f64 {
+        self.length(a, b) / self.scale(surface, a, b)
+    }
+
     /// The members along which the surface turns by more than about seventy degrees: there chords say little
     /// of lengths along the surface, nor tangent planes of straight lines.
     pub fn sharp_members(&self, surface: &Surface) -> Vec<(u32, u32)> {
@@ -289,6 +302,11 @@ impl Place {
                 surface.loops[c.chain as usize].surface_point(c.s)
             }
         }
+    }
+
+    /// Wanted length here over the mean one; 1 everywhere unless lengths are to vary.
+    pub fn scale(&self, surface: &Surface) -> f64 {
+        if surface.scale.is_empty() { 1.0 } else { surface.scale_at(&self.surface_point(surface)) }
     }
 
     /// Unit normal of the carrier here.

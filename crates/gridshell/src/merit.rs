@@ -35,6 +35,10 @@ pub struct Sums {
     pub border_shape: f64,
     /// Area of the panels over that of the surface.
     pub area: f64,
+    /// Nodes inside where a direction is wanted, and how far their members are off it.
+    pub guided: f64,
+    /// See `guided`.
+    pub astray: f64,
     /// How far members and panels are beyond what is wanted of each.
     pub excess: f64,
 }
@@ -52,6 +56,8 @@ pub struct Lengths {
 
 /// Members shorter or longer than this, over the wanted length, are beyond what is wanted.
 const MEMBERS: [f64; 2] = [0.66, 1.4];
+/// Members may be off a wanted direction by so much in the mean, radians, before it counts.
+const ASTRAY: f64 = 0.03;
 /// Panels of a lower shape q are beyond what is wanted.
 const SHAPE: f64 = 0.68;
 
@@ -103,15 +109,21 @@ impl Sums {
                 sums.regular += 1.0;
                 sums.delta += delta(grid, v);
             }
+            if !at_border && let Some(off) = off_direction(grid, surface, v) {
+                sums.guided += 1.0;
+                sums.astray += off;
+            }
             // A member or panel is counted by the least of its nodes that is inside.
             for &w in mesh.ring(v).iter().filter(|&&w| w > v || !inside(w)) {
-                sums.member(grid.length(v, w) / length, at_border || mesh.is_boundary(w));
+                sums.member(
+                    grid.scaled_length(surface, v, w) / length,
+                    at_border || mesh.is_boundary(w),
+                );
             }
-            let normal = grid.places[v as usize].normal(surface);
             for (a, b) in mesh.fan(v) {
                 if [a, b].iter().all(|&w| w > v || !inside(w)) {
                     let at_border = at_border || mesh.is_boundary(a) || mesh.is_boundary(b);
-                    sums.panel([v, a, b].map(|w| grid.xyz[w as usize]), normal, at_border);
+                    sums.panel(grid, surface, [v, a, b], at_border);
                 }
             }
         }
@@ -128,16 +140,16 @@ impl Sums {
         self.excess += beyond * beyond;
     }
 
-    fn panel(&mut self, p: [DVec3; 3], normal: DVec3, at_border: bool) {
+    fn panel(&mut self, grid: &Grid, surface: &Surface, t: [u32; 3], at_border: bool) {
+        let p = t.map(|v| grid.xyz[v as usize]);
         let shape = shape(p);
-        let twice = (p[1] - p[0]).cross(p[2] - p[0]);
-        self.area += 0.5 * twice.length();
+        self.area += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).length();
         if at_border {
             self.border_panels += 1.0;
             self.border_shape += shape;
         }
         let beyond = (SHAPE - shape).max(0.0);
-        self.excess += beyond * beyond + f64::from(twice.dot(normal) < 0.0);
+        self.excess += beyond * beyond + f64::from(is_turned(grid, surface, t));
     }
 
     /// mu of Eq. 27.
@@ -148,6 +160,11 @@ impl Sums {
     /// Mean angle fluency index (Eq. 30), degrees.
     pub fn delta_deg(&self) -> f64 {
         (self.delta / self.regular.max(1.0)).to_degrees()
+    }
+
+    /// Mean shape of the panels at the border; 1 without any.
+    pub fn border_shape_mean(&self) -> f64 {
+        if self.border_panels > 0.0 { self.border_shape / self.border_panels } else { 1.0 }
     }
 
     /// Fluency Q (Eq. 31); None for a perfect lattice.
@@ -161,13 +178,13 @@ impl Sums {
     /// single members and panels. Higher is better.
     pub fn merit(&self, lambda: f64) -> f64 {
         let over = |x: f64, limit: f64| (x - limit).max(0.0);
-        let border_shape =
-            if self.border_panels > 0.0 { self.border_shape / self.border_panels } else { 1.0 };
-        let held_back = 4.0 * over(self.members.cv(), 0.055)
+        let inner = self.members - self.border_members;
+        let held_back = 6.0 * over(inner.cv(), 0.05)
             + 1.5 * over(self.border_members.cv(), 0.11)
-            + 3.0 * over(0.96, border_shape)
-            + 10.0 * over((self.members.mean() - 1.0).abs(), 0.015)
+            + 3.0 * over(0.96, self.border_shape_mean())
+            + 10.0 * over((self.members.mean() - 1.0).abs(), 0.01)
             + 30.0 * over(0.986, self.area)
+            + 20.0 * over(self.astray / self.guided.max(1.0), ASTRAY)
             + 4.0 * self.excess;
         self.fluency(lambda).unwrap_or(1.0 / PERFECT) / (1.0 + held_back)
     }
@@ -208,6 +225,8 @@ impl Add for Sums {
             border_panels: self.border_panels + o.border_panels,
             border_shape: self.border_shape + o.border_shape,
             area: self.area + o.area,
+            guided: self.guided + o.guided,
+            astray: self.astray + o.astray,
             excess: self.excess + o.excess,
         }
     }
@@ -226,9 +245,28 @@ impl Sub for Sums {
             border_panels: self.border_panels - o.border_panels,
             border_shape: self.border_shape - o.border_shape,
             area: self.area - o.area,
+            guided: self.guided - o.guided,
+            astray: self.astray - o.astray,
             excess: self.excess - o.excess,
         }
     }
+}
+
+/// Angle between the wanted direction at node `v` and the nearest of its members, radians; None where no direction is
+/// wanted.
+pub fn off_direction(grid: &Grid, surface: &Surface, v: u32) -> Option<f64> {
+    if surface.direction.is_empty() {
+        return None;
+    }
+    let point = grid.places[v as usize].surface_point(surface);
+    let wanted = surface.direction_at(&point)?;
+    let normal = surface.carrier.normal(&point);
+    let off = |&w: &u32| {
+        let member = grid.xyz[w as usize] - grid.xyz[v as usize];
+        let angle = trig::angle(member - normal * member.dot(normal), wanted);
+        angle.min(PI - angle)
+    };
+    Some(grid.mesh.ring(v).iter().map(off).fold(PI, f64::min))
 }
 
 /// Angle fluency index `delta_i` of a regular interior node (Eq. 28 and 29), radians.
@@ -244,6 +282,14 @@ pub fn delta(grid: &Grid, v: u32) -> f64 {
         squares += bend * bend + skew * skew;
     }
     (squares / 3.0).sqrt()
+}
+
+/// Whether a panel faces against the surface: against its normal at a corner, and at all corners on average.
+pub fn is_turned(grid: &Grid, surface: &Surface, t: [u32; 3]) -> bool {
+    let [p, q, r] = t.map(|v| grid.xyz[v as usize]);
+    let panel = (q - p).cross(r - p);
+    let normal = |v: u32| grid.places[v as usize].normal(surface);
+    panel.dot(normal(t[0])) <= 0.0 && panel.dot(t.map(normal).iter().sum()) <= 0.0
 }
 
 /// Panel shape index q of Eq. 25; 0 for a panel without extent.

@@ -28,14 +28,18 @@ pub(super) struct System {
     accuracy: f64,
     /// Whether the surface bends so sharply that lengths are to follow it.
     bends: bool,
-    /// Number of members.
-    members: f64,
+    /// Weight of the lengths of members that touch the border.
+    border: f64,
+    /// Whether each node is on the border.
+    at_border: Vec<bool>,
+    /// Sum of the weights of all members.
+    weights: f64,
     /// Where row i begins; it has the neighbours in ring order, then as many nodes across them.
     starts: Vec<usize>,
     columns: Vec<u32>,
     /// Which of its three lines are held straight at each node, a bit each.
     held: Vec<u8>,
-    /// Mean length at the last linearisation, metres.
+    /// Weighted mean length at the last linearisation, metres.
     pub mean: f64,
     /// The directions in which each node may move there.
     frames: Vec<[DVec3; 2]>,
@@ -68,11 +72,17 @@ impl System {
             columns.extend(mesh.ring(v).iter().map(|&j| across(mesh, &held, v, j)));
         }
         starts.push(columns.len());
+        let at_border: Vec<bool> =
+            (0..mesh.slots() as u32).map(|v| mesh.is_alive(v) && mesh.is_boundary(v)).collect();
+        let touching =
+            mesh.edges().filter(|e| at_border[e.0 as usize] || at_border[e.1 as usize]).count();
         System {
             straightness: options.straightness,
             accuracy: options.accuracy,
             bends: !sharp.is_empty(),
-            members: mesh.edge_count() as f64,
+            border: options.border,
+            at_border,
+            weights: mesh.edge_count() as f64 + (options.border - 1.0) * touching as f64,
             blocks: vec![[0.0; 4]; columns.len()],
             starts,
             columns,
@@ -90,16 +100,26 @@ impl System {
         row.split_at(row.len() / 2)
     }
 
-    /// Normals of all nodes where lengths need them.
-    fn normals(&self, surface: &Surface, grid: &Grid) -> Option<Vec<DVec3>> {
-        self.bends.then(|| collect(grid.places.len(), |i| grid.places[i].normal(surface)))
+    /// Weight of the length of the member from `i` to `j`.
+    fn weight(&self, i: usize, j: usize) -> f64 {
+        if self.at_border[i] || self.at_border[j] { self.border } else { 1.0 }
+    }
+
+    /// All members as they lie, with normals and scales where lengths need them.
+    fn members<'a>(&self, surface: &Surface, grid: &'a Grid) -> Members<'a> {
+        let places = &grid.places;
+        let graded = !surface.scale.is_empty();
+        Members {
+            xyz: &grid.xyz,
+            normals: self.bends.then(|| collect(places.len(), |i| places[i].normal(surface))),
+            scales: graded.then(|| collect(places.len(), |i| places[i].scale(surface))),
+        }
     }
 
     /// Linearise at the grid's positions and solve for the move of every node; gives the energy there too.
     pub fn step(&mut self, surface: &Surface, grid: &Grid) -> (Vec<DVec3>, f64) {
-        let normals = self.normals(surface, grid);
-        let members = Members { xyz: &grid.xyz, normals: normals.as_deref() };
-        self.mean = self.total_length(&members) / self.members;
+        let members = self.members(surface, grid);
+        self.mean = self.total(|i, j| members.length(i, j)) / self.weights;
         self.frames = collect(grid.xyz.len(), |i| directions(surface, grid, i));
         let right = self.assemble(&members);
         let energy = self.energy_of(&members);
@@ -111,34 +131,36 @@ impl System {
     /// What is minimised, up to the curvature of the surface: the spread of lengths and the bends in the
     /// tangent planes of the last linearisation.
     pub fn energy(&self, surface: &Surface, grid: &Grid) -> f64 {
-        let normals = self.normals(surface, grid);
-        self.energy_of(&Members { xyz: &grid.xyz, normals: normals.as_deref() })
+        self.energy_of(&self.members(surface, grid))
     }
 
-    fn total_length(&self, members: &Members) -> f64 {
+    /// Weighted sum over all members.
+    fn total(&self, value: impl Fn(usize, usize) -> f64 + Sync) -> f64 {
         sum(self.held.len(), |r| {
-            let lengths = r.flat_map(|i| {
-                let later = self.row(i).0.iter().filter(move |&&j| j as usize > i);
-                later.map(move |&j| members.length(i, j as usize))
+            let values = r.flat_map(|i| {
+                let later = self.row(i).0.iter().map(|&j| j as usize).filter(move |&j| j > i);
+                let value = &value;
+                later.map(move |j| self.weight(i, j) * value(i, j))
             });
-            lengths.sum()
+            values.sum()
         })
     }
 
     fn energy_of(&self, members: &Members) -> f64 {
         // Against the last mean: the sum of squares about the true one follows without cancellation.
-        let off = self.total_length(members) - self.members * self.mean;
+        let off = self.total(|i, j| members.length(i, j)) - self.weights * self.mean;
         let about = sum(self.held.len(), |r| {
             r.map(|i| {
                 let ring = self.row(i).0;
-                let later = ring.iter().filter(|&&j| j as usize > i);
-                let spread: f64 =
-                    later.map(|&j| (members.length(i, j as usize) - self.mean).powi(2)).sum();
+                let later = ring.iter().map(|&j| j as usize).filter(|&j| j > i);
+                let spread: f64 = later
+                    .map(|j| self.weight(i, j) * (members.length(i, j) - self.mean).powi(2))
+                    .sum();
                 spread + self.straightness * self.bend_energy(members, i, ring)
             })
             .sum()
         });
-        about - off * off / self.members
+        about - off * off / self.weights
     }
 
     fn bend_energy(&self, members: &Members, i: usize, ring: &[u32]) -> f64 {
@@ -191,30 +213,34 @@ impl System {
         for (k, &j) in ring.iter().enumerate() {
             let other = &self.frames[j as usize];
             let (length, u) = members.span(i, j as usize);
+            let rate = members.rate(i, j as usize);
+            let stiffness = self.weight(i, j as usize) * rate * rate;
             let (a, b) = (in_frame(frame, u), in_frame(other, u));
-            right += a * (length - self.mean);
-            diagonal += outer(a, a);
-            let mut block = -outer(a, b);
+            right += a * (stiffness / rate * (length - self.mean));
+            diagonal += outer(a, a) * stiffness;
+            let mut block = -outer(a, b) * stiffness;
             let turn = between(frame, other);
             if self.held[i] >> (k % 3) & 1 == 1 {
-                block -= turn * (2.0 * weight);
+                let both = rate + members.rate(i, ring[(k + 3) % 6] as usize);
+                block -= turn * (both * rate * weight);
                 if k < 3 {
-                    diagonal += DMat2::IDENTITY * (4.0 * weight);
-                    own += members.bend(i, j, ring[k + 3]);
+                    diagonal += DMat2::IDENTITY * (both * both * weight);
+                    own += members.bend(i, j, ring[k + 3]) * both;
                 }
             }
             far[k] = [0.0; 4];
             if over[k] != NONE {
                 let o = over[k];
                 let there = other_frame(frame, other, &self.frames[o as usize]);
-                block -= turn * (2.0 * weight);
-                diagonal += turn * turn.transpose() * weight;
-                far[k] = single(there * weight);
-                through += project(other, members.bend(j as usize, i as u32, o));
+                let beyond = members.rate(j as usize, o as usize);
+                block -= turn * ((rate + beyond) * rate * weight);
+                diagonal += turn * turn.transpose() * (rate * rate * weight);
+                far[k] = single(there * (rate * beyond * weight));
+                through += project(other, members.bend(j as usize, i as u32, o)) * rate;
             }
             near[k] = single(block);
         }
-        right += in_frame(frame, own * 2.0 - through) * weight;
+        right += in_frame(frame, own - through) * weight;
         (diagonal, right)
     }
 
@@ -251,20 +277,27 @@ impl System {
     }
 }
 
-/// Positions, and normals where lengths are arcs.
+/// Positions, normals where lengths are arcs, and scales where lengths are to vary.
 struct Members<'a> {
     xyz: &'a [DVec3],
-    normals: Option<&'a [DVec3]>,
+    normals: Option<Vec<DVec3>>,
+    scales: Option<Vec<f64>>,
 }
 
 impl Members<'_> {
-    /// Length from node `i` to `j`: of the chord, or where the surface bends sharply of the arc above it.
+    /// Length from node `i` to `j`: of the chord, or where the surface bends sharply of the arc above it; over the
+    /// scale there.
     fn length(&self, i: usize, j: usize) -> f64 {
         self.xyz[i].distance(self.xyz[j]) * self.stretch(i, j)
     }
 
     fn stretch(&self, i: usize, j: usize) -> f64 {
-        self.normals.map_or(1.0, |n| arc_over_chord(n[i], n[j]))
+        self.normals.as_ref().map_or(1.0, |n| arc_over_chord(n[i], n[j])) * self.rate(i, j)
+    }
+
+    /// How fast the length from node `i` to `j` grows with the distance: one over the scale.
+    fn rate(&self, i: usize, j: usize) -> f64 {
+        self.scales.as_ref().map_or(1.0, |s| 2.0 / (s[i] + s[j]))
     }
 
     /// Length from node `i` to `j`, and the direction there.
@@ -279,7 +312,8 @@ impl Members<'_> {
 
     /// How the line from `j` over `i` to `k` bends.
     fn bend(&self, i: usize, j: u32, k: u32) -> DVec3 {
-        self.xyz[j as usize] + self.xyz[k as usize] - self.xyz[i] * 2.0
+        let half = |j: u32| (self.xyz[j as usize] - self.xyz[i]) * self.rate(i, j as usize);
+        half(j) + half(k)
     }
 }
 
@@ -327,10 +361,11 @@ mod tests {
     use crate::grid::Place;
     use crate::surface::{Sampling, builtin};
 
-    /// A lattice on the flat hexagon, its inner nodes pushed about.
+    /// A lattice on the flat hexagon, its inner nodes pushed about, with lengths that are to vary.
     fn ruffled() -> (Surface, Grid) {
         let sampling = Sampling { max_edge: 0.5, chord_error: 2e-3, corner_angle: 0.5 };
-        let surface = builtin::model("hexagon").unwrap().surface(&sampling).unwrap();
+        let mut surface = builtin::model("hexagon").unwrap().surface(&sampling).unwrap();
+        surface.scale = surface.carrier.points.iter().map(|p| 1.0 + 0.08 * p.x).collect();
         let points = surface.carrier.points.clone();
         let mut grid = Grid::from_panels(points, &surface.carrier.triangles, &surface).unwrap();
         let mut rng = fastrand::Rng::with_seed(1);
@@ -345,7 +380,8 @@ mod tests {
 
     fn linearised() -> (Surface, Grid, System) {
         let (surface, grid) = ruffled();
-        let options = Options { straightness: 0.3, settled: 0.0, max_steps: 1, accuracy: 1e-3 };
+        let options =
+            Options { straightness: 0.3, border: 2.0, settled: 0.0, max_steps: 1, accuracy: 1e-3 };
         let mut system = System::new(&surface, &grid, &options);
         system.step(&surface, &grid);
         (surface, grid, system)
@@ -373,7 +409,7 @@ mod tests {
     #[test]
     fn right_side_is_half_the_slope_of_the_energy() {
         let (surface, grid, mut system) = linearised();
-        let members = Members { xyz: &grid.xyz, normals: None };
+        let members = system.members(&surface, &grid);
         let right = system.assemble(&members);
         let h = 1e-6;
         for i in (0..grid.xyz.len()).filter(|&i| matches!(grid.places[i], Place::Interior(_))) {

@@ -9,10 +9,12 @@ mod ply;
 mod scan;
 pub mod step;
 mod stl;
+mod values;
 mod weld;
 
 pub use grid_file::GridFile;
 pub use lines::{read_anchors, read_guides};
+pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
 use crate::surface::{Model, PolygonMesh, builtin};

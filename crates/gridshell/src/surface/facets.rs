@@ -22,6 +22,8 @@ impl Surface {
             fixed: Vec::new(),
             shapes: Vec::new(),
             curves: Vec::new(),
+            scale: Vec::new(),
+            direction: Vec::new(),
             area,
             tracks: Tracks::new(),
         }

@@ -41,6 +41,8 @@ impl PolygonMesh {
             fixed: Vec::new(),
             shapes: Vec::new(),
             curves: Vec::new(),
+            scale: Vec::new(),
+            direction: Vec::new(),
             area,
             tracks: Tracks::new(),
         })

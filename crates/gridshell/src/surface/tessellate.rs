@@ -100,6 +100,8 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
         fixed: Vec::new(),
         shapes: brep.faces.iter().map(|f| f.shape.clone()).collect(),
         curves,
+        scale: Vec::new(),
+        direction: Vec::new(),
         area: pieces.iter().map(|p| p.area).sum(),
         tracks,
     })

@@ -13,3 +13,4 @@ mod sheets;
 mod stopping;
 mod threads;
 mod topology;
+mod wishes;

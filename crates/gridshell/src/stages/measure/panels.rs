@@ -68,8 +68,9 @@ fn is_folded(grid: &Grid, normals: &[DVec3], t: [u32; 3]) -> bool {
         }
         let other = panel_normal(grid, [b, a, c]);
         let other_surface = surface_normal(normals, [b, a, c]);
-        let folded = panel.dot(other) < 0.0 && surface.dot(other_surface) > 0.0;
-        folded && agreement < other.dot(other_surface)
+        // Away from the shared edge: that may run along a crease, where the surface turns as well.
+        let turns = normals[t[(k + 2) % 3] as usize].dot(normals[c as usize]) <= 0.0;
+        panel.dot(other) < 0.0 && !turns && agreement < other.dot(other_surface)
     })
 }
 

@@ -21,26 +21,35 @@ pub struct Local {
     right: Vec<f64>,
 }
 
+/// What to balance for.
+pub struct Aim {
+    /// Wanted length, metres.
+    pub mean: f64,
+    /// Weight of straight lines.
+    pub straightness: f64,
+    /// Weight of the lengths of members that touch the border.
+    pub border: f64,
+}
+
 /// A node in a residual: its place in the region (None outside) and its coefficient.
 type Term = (Option<usize>, DVec3);
 
 impl Local {
-    /// Move the nodes of the region *last gathered* towards members of `mean` metres and straight lines, in
-    /// `steps` steps. `rim` holds the region and one ring more.
+    /// Move the nodes of the region *last gathered* towards `aim` in `steps` steps. `rim` holds the region and
+    /// one ring more.
     pub fn balance(
         &mut self,
         state: &mut State,
         region: &[u32],
         rim: &[u32],
-        mean: f64,
-        straightness: f64,
+        aim: &Aim,
         steps: usize,
     ) {
         self.lay_out(state, region);
         let n = self.right.len();
         for step in 0..steps {
             let factorize = step == 0;
-            self.linearize(state, region, rim, mean, straightness, factorize);
+            self.linearize(state, region, rim, aim, factorize);
             if factorize && !cholesky(&mut self.matrix, n) {
                 return;
             }
@@ -53,7 +62,7 @@ impl Local {
                 })
                 .collect();
             let longest = moves.iter().map(|m: &DVec3| m.length()).fold(0.0, f64::max);
-            let scale = (REACH * mean / longest).min(1.0);
+            let scale = (REACH * aim.mean / longest).min(1.0);
             for (&v, d) in region.iter().zip(&moves) {
                 state.grid.slide(state.surface, v as usize, *d * scale);
             }
@@ -77,8 +86,7 @@ impl Local {
         state: &State,
         region: &[u32],
         rim: &[u32],
-        mean: f64,
-        straightness: f64,
+        aim: &Aim,
         with_matrix: bool,
     ) {
         let n = self.right.len();
@@ -100,7 +108,10 @@ impl Local {
                 }
                 let (chord, length) = state.member(v, w);
                 let u = chord.normalize_or_zero();
-                self.add_scalar([(Some(i), -u), (j, u)], length - mean, with_matrix);
+                let u = u / state.scale(v, w);
+                let at_border = grid.mesh.is_boundary(v) || grid.mesh.is_boundary(w);
+                let weight = if at_border { aim.border } else { 1.0 };
+                self.add_length([(Some(i), -u), (j, u)], length - aim.mean, weight, with_matrix);
             }
         }
         for &v in rim {
@@ -121,21 +132,22 @@ impl Local {
                 {
                     continue;
                 }
-                let bend = grid.xyz[a as usize] + grid.xyz[b as usize] - at * 2.0;
+                let [ra, rb] = [a, b].map(|w| 1.0 / state.scale(v, w));
+                let bend = (grid.xyz[a as usize] - at) * ra + (grid.xyz[b as usize] - at) * rb;
                 let bend = bend - normal * bend.dot(normal);
                 self.add_bend(
-                    [(here, -2.0), (la, 1.0), (lb, 1.0)],
+                    [(here, -ra - rb), (la, ra), (lb, rb)],
                     bend,
                     normal,
-                    straightness,
+                    aim.straightness,
                     with_matrix,
                 );
             }
         }
     }
 
-    /// Add the residual `value`, whose gradient by each node is given.
-    fn add_scalar(&mut self, terms: [Term; 2], value: f64, with_matrix: bool) {
+    /// Add a member that is too long by `value`, with the gradient of that by each node.
+    fn add_length(&mut self, terms: [Term; 2], value: f64, weight: f64, with_matrix: bool) {
         let mut columns: SmallVec<[(usize, f64); 4]> = SmallVec::new();
         for (node, gradient) in terms {
             let Some(node) = node else { continue };
@@ -144,10 +156,10 @@ impl Local {
         }
         let n = self.right.len();
         for &(i, x) in &columns {
-            self.right[i] -= x * value;
+            self.right[i] -= weight * x * value;
             if with_matrix {
                 for &(j, y) in &columns {
-                    self.matrix[i * n + j] += x * y;
+                    self.matrix[i * n + j] += weight * x * y;
                 }
             }
         }

@@ -29,6 +29,21 @@ pub struct Report {
     pub converged: bool,
 }
 
+impl Report {
+    /// This and another report of the same grid, one after the other.
+    #[must_use]
+    pub fn and(&self, next: &Report) -> Report {
+        Report {
+            flips: self.flips + next.flips,
+            collapses: self.collapses + next.collapses,
+            splits: self.splits + next.splits,
+            drifts: self.drifts + next.drifts,
+            refused: self.refused + next.refused,
+            converged: self.converged && next.converged,
+        }
+    }
+}
+
 impl std::fmt::Display for Report {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         write!(

@@ -2,7 +2,7 @@
 //! the merit of the whole grid says so.
 
 use super::Report;
-use super::local::Local;
+use super::local::{Aim, Local};
 use super::search::{Operation, draw_at};
 use super::state::{Few, State};
 use crate::balance::{self, balance};
@@ -14,43 +14,26 @@ use smallvec::SmallVec;
 
 /// Rings of nodes that move with an operation.
 const RINGS: usize = 3;
+/// Steps of balancing round an operation.
+const STEPS: usize = 3;
 /// Panels below this shape are refused.
 const LEAST_SHAPE: f64 = 0.55;
 /// Rounds, each begun with the whole grid in balance.
 const ROUNDS: usize = 6;
 /// Temperatures, first and last, as shares of the merit.
-const TEMPERATURE: [f64; 2] = [0.7, 0.05];
-static TEMP: std::sync::LazyLock<[f64; 2]> = std::sync::LazyLock::new(|| {
-    std::env::var("TEMP").ok().map_or(TEMPERATURE, |s| {
-        let v: Vec<f64> = s.split(',').map(|x| x.parse().unwrap()).collect();
-        [v[0], v[1]]
-    })
-});
+const TEMPERATURE: [f64; 2] = [0.4, 0.05];
 /// What an operation may at best win by lengths and lines, as a share of the merit.
-const HOPE: f64 = 4.0;
+const HOPE: f64 = 1.0;
 
-static HP: std::sync::LazyLock<f64> =
-    std::sync::LazyLock::new(|| std::env::var("HP").ok().map_or(HOPE, |s| s.parse().unwrap()));
-/// Polish `state` by `trials` trials.
+/// Polish `state` by so many trials per irregular node.
 pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job: &Job) -> Report {
     let mut report = Report::default();
+    // Few irregular nodes are hard to lose: the border is where they go, so its size counts as well.
+    let places = state.irregular().len().max(state.grid.mesh.boundary_count() / 2);
+    let trials = trials.saturating_mul(places).min(recipe.regularize.most_polish);
     let mut polish = Polish::new(state, recipe, seed);
     for round in 0..ROUNDS {
-        let b = (polish.merit, polish.total.fluency(0.9).unwrap_or(0.0), polish.total.mu());
         polish.balance_all(3);
-        if std::env::var("DBG").is_ok() {
-            eprintln!(
-                "   merit round {round}: {b:.3?} -> {:.3} Q {:.3} mu {:.3} r {:.4} bcv {:.3} bq {:.3} exc {:.4} accepted {}",
-                polish.merit,
-                polish.total.fluency(0.9).unwrap_or(0.0),
-                polish.total.mu(),
-                polish.total.members.cv(),
-                polish.total.border_members.cv(),
-                polish.total.border_shape / polish.total.border_panels,
-                polish.total.excess,
-                report.flips + report.collapses + report.splits
-            );
-        }
         if round == 0 || polish.merit > polish.best.0 {
             polish.best = (polish.merit, polish.state.grid.clone());
         }
@@ -63,7 +46,7 @@ pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job:
                 return report;
             }
             let done = (round as f64 + made as f64 * ROUNDS as f64 / trials as f64) / ROUNDS as f64;
-            let [hot, cold] = *TEMP;
+            let [hot, cold] = TEMPERATURE;
             polish.temperature = hot * exp(ln(cold / hot) * done);
             made += usize::from(polish.trial(&mut report));
         }
@@ -82,6 +65,7 @@ struct Polish<'a, 'b> {
     rng: fastrand::Rng,
     local: Local,
     straightness: f64,
+    border: f64,
     total: Sums,
     merit: f64,
     temperature: f64,
@@ -95,6 +79,7 @@ impl<'a, 'b> Polish<'a, 'b> {
             rng: fastrand::Rng::with_seed(seed),
             local: Local::default(),
             straightness: recipe.relax.straightness,
+            border: recipe.border_weight(),
             total: Sums::default(),
             merit: 0.0,
             temperature: 0.0,
@@ -108,6 +93,7 @@ impl<'a, 'b> Polish<'a, 'b> {
     fn balance_all(&mut self, steps: usize) {
         let options = balance::Options {
             straightness: self.straightness,
+            border: self.border,
             settled: 1e-4,
             max_steps: steps,
             accuracy: 0.02,
@@ -126,7 +112,7 @@ impl<'a, 'b> Polish<'a, 'b> {
         let bar = self.merit + self.unit * self.temperature * ln(self.rng.f64().max(1e-300));
         let Some(plan) = self.plan() else { return false };
         let hoped = Sums { residual: self.total.residual + plan.change, ..self.total };
-        if hoped.merit(self.state.lambda) + self.unit * *HP < bar {
+        if hoped.merit(self.state.lambda) + self.unit * HOPE < bar {
             return false;
         }
         let kept = self.carry_out(&plan).filter(|(after, _)| after.merit(self.state.lambda) >= bar);
@@ -222,7 +208,8 @@ impl<'a, 'b> Polish<'a, 'b> {
             let region = state.region(&plan.touched, RINGS - 1);
             state.remember(&region);
             let mean = self.total.members.mean() * state.length;
-            self.local.balance(state, &region, &rim, mean, self.straightness, 3);
+            let aim = Aim { mean, straightness: self.straightness, border: self.border };
+            self.local.balance(state, &region, &rim, &aim, STEPS);
             if state.has_bad_panel(&plan.touched_alive(state), LEAST_SHAPE) {
                 return None;
             }

@@ -148,7 +148,7 @@ impl<'a, 'b> Search<'a, 'b> {
         // As many as members of the wanted length leave room for (Eq. 1).
         let surface = state.surface;
         let panel = 3f64.sqrt() / 4.0 * state.length * state.length;
-        let target = k_n * surface.area / (2.0 * panel) + surface.euler_characteristic() as f64;
+        let target = k_n * surface.room() / (2.0 * panel) + surface.euler_characteristic() as f64;
         Search {
             state,
             rng,

@@ -4,6 +4,7 @@
 use crate::balance::arc_over_chord;
 use crate::degree::{boundary_angle, virtual_degree};
 use crate::grid::{Grid, Place};
+use crate::merit;
 use crate::mesh::{Refusal, Undo};
 use crate::surface::{ChainPoint, Surface};
 use glam::DVec3;
@@ -241,14 +242,21 @@ impl<'a> State<'a> {
         sum
     }
 
-    /// The chord from `v` to `w`, and its length (where the surface bends sharply: of the arc above it).
+    /// The chord from `v` to `w`, and its length (where the surface bends sharply: of the arc above it) over the
+    /// scale there.
     pub fn member(&self, v: u32, w: u32) -> (DVec3, f64) {
         let chord = self.grid.xyz[w as usize] - self.grid.xyz[v as usize];
+        let length = chord.length() / self.scale(v, w);
         if !self.bends {
-            return (chord, chord.length());
+            return (chord, length);
         }
         let normal = |v: u32| self.grid.places[v as usize].normal(self.surface);
-        (chord, chord.length() * arc_over_chord(normal(v), normal(w)))
+        (chord, length * arc_over_chord(normal(v), normal(w)))
+    }
+
+    /// Wanted length from `v` to `w` over the mean one.
+    pub fn scale(&self, v: u32, w: u32) -> f64 {
+        self.grid.scale(self.surface, v, w)
     }
 
     /// Sweep over the vertices, moving each to where its members are nearest to the wanted length.
@@ -266,9 +274,11 @@ impl<'a> State<'a> {
                     })
                     .sum();
                 // The members of a regular node resist a move with half their number in either direction.
-                let mut step = pull * (2.0 / ring.len() as f64);
-                if step.length_squared() > 0.09 * self.length * self.length {
-                    step *= 0.3 * self.length / step.length();
+                let scale = self.scale(v, v);
+                let mut step = pull * (2.0 * scale / ring.len() as f64);
+                let reach = 0.3 * scale * self.length;
+                if step.length_squared() > reach * reach {
+                    step *= reach / step.length();
                 }
                 self.grid.slide(self.surface, v as usize, step);
             }
@@ -304,16 +314,12 @@ impl<'a> State<'a> {
 
     /// Whether a panel at one of these vertices is a sliver (shape below `least`) or turned over.
     pub fn has_bad_panel(&self, vertices: &[u32], least: f64) -> bool {
-        let xyz = &self.grid.xyz;
-        let carrier = &self.surface.carrier;
+        let grid = &self.grid;
         vertices.iter().any(|&v| {
-            let normal = carrier.normal(&self.grid.places[v as usize].surface_point(self.surface));
-            self.grid.mesh.fan(v).any(|(a, b)| {
-                let (p, q, r) = (xyz[v as usize], xyz[a as usize], xyz[b as usize]);
-                let area = (q - p).cross(r - p);
-                let sides = p.distance_squared(q) + q.distance_squared(r) + r.distance_squared(p);
-                let shape = 2.0 * 3f64.sqrt() * area.length() / sides;
-                shape < least || area.dot(normal) <= 0.0
+            grid.mesh.fan(v).any(|(a, b)| {
+                let t = [v, a, b];
+                merit::shape(t.map(|v| grid.xyz[v as usize])) < least
+                    || merit::is_turned(grid, self.surface, t)
             })
         })
     }

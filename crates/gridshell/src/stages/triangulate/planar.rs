@@ -7,14 +7,14 @@ use crate::bubbles::Bubbles;
 use crate::grid::{Grid, Place};
 use crate::math::delaunay;
 use crate::mesh::Mesh;
-use crate::surface::{Chain, ChainPoint, Surface, chart::Chart};
+use crate::surface::{ChainPoint, Surface, chart::Chart};
 use glam::DVec2;
 
 /// The Delaunay grid of `bubbles` in the chart; None where the chart overlaps itself, or bubbles lie so that
 /// the boundary polygons cross or leave some outside.
 pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Option<Grid> {
     let mut points: Vec<DVec2> =
-        bubbles.boundary.iter().map(|c| in_chart(&surface.loops, chart, c)).collect();
+        bubbles.boundary.iter().map(|c| chart.on_chain(&surface.loops, c)).collect();
     let mut rims = Vec::with_capacity(points.len());
     let mut first = 0;
     for same in bubbles.boundary.chunk_by(|a, b| a.chain == b.chain) {
@@ -22,14 +22,12 @@ pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Optio
         rims.extend((0..n).map(|k| [first + k, first + (k + 1) % n]));
         first += n;
     }
-    points.extend(bubbles.features.iter().map(|c| in_chart(&surface.features, chart, c)));
+    points.extend(bubbles.features.iter().map(|c| chart.on_chain(&surface.features, c)));
     let along = bubbles.along_features(surface);
     // A line used twice, there and back, has the inside on both its sides.
     rims.extend(along.iter().flat_map(|&pair| [pair; 2]));
-    points.extend(bubbles.fixed.iter().chain(&bubbles.interior).map(|p| {
-        let corners = chart.corners(&surface.carrier, p.triangle as usize);
-        corners[0] * p.bary[0] + corners[1] * p.bary[1] + corners[2] * p.bary[2]
-    }));
+    let inside = bubbles.fixed.iter().chain(&bubbles.interior);
+    points.extend(inside.map(|p| chart.at(&surface.carrier, p)));
     let triangles = delaunay::triangles(&points, &rims).ok()?;
     let mut mesh = Mesh::from_triangles(points.len(), &triangles).ok()?;
     if mesh.euler_characteristic() != surface.euler_characteristic() {
@@ -57,11 +55,4 @@ pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Optio
     }
     let xyz = places.iter().map(|p| p.xyz(surface)).collect();
     Some(Grid { mesh, places, xyz })
-}
-
-fn in_chart(chains: &[Chain], chart: &Chart, c: &ChainPoint) -> DVec2 {
-    let chain = &chains[c.chain as usize];
-    let (k, fraction) = chain.locate(c.s);
-    let next = chain.vertices[(k + 1) % chain.vertices.len()];
-    chart.uv[chain.vertices[k] as usize].lerp(chart.uv[next as usize], fraction)
 }
