@@ -34,13 +34,13 @@ pub(super) fn brep() -> Brep {
 /// 60 degrees below its own waist.
 fn height() -> f64 {
     let sin_60 = 0.75_f64.sqrt();
-    (BULB + NECK) / 2.0 + NECK * sin_60
+    f64::midpoint(BULB, NECK) + NECK * sin_60
 }
 
 /// From the foot round the neck to the widest parallel: distances from the axis and heights.
 fn section() -> Vec<Flat> {
     let neck = arcs(&[8.0, 6.5, 5.0].map(|k| k * FRAC_PI_6));
-    let center = [(BULB + NECK) * 0.75_f64.sqrt(), height() - (BULB + NECK) / 2.0];
+    let center = [(BULB + NECK) * 0.75_f64.sqrt(), height() - f64::midpoint(BULB, NECK)];
     let neck = neck
         .into_iter()
         .map(|([x, z], weight)| ([center[0] + NECK * x, center[1] + NECK * z], weight));

@@ -22,13 +22,11 @@ pub(super) fn brep() -> Brep {
     let control = |a: usize, b: usize| {
         let (out, z, weight) = section(b);
         let at = |side: f64| -> Flat { ([BEND + side * out, z], weight) };
-        match a {
-            0..=4 => turned(first[a], at(1.0)),
-            _ => {
-                let (point, weight) = turned(second[a - 4], at(-1.0));
-                (center + point, weight)
-            }
+        if a <= 4 {
+            return turned(first[a], at(1.0));
         }
+        let (point, weight) = turned(second[a - 4], at(-1.0));
+        (center + point, weight)
     };
     let quilt = Quilt {
         degree: [2, 2],

@@ -38,7 +38,7 @@ fn section() -> [Flat; 5] {
     let apex = |h: f64| {
         let rho = (WAIST * WAIST + k * h * h).sqrt();
         let back = (rho - WAIST) * rho / (k * h);
-        ([WAIST, BELOW + h - back], ((rho / WAIST + 1.0) / 2.0).sqrt())
+        ([WAIST, BELOW + h - back], f64::midpoint(rho / WAIST, 1.0).sqrt())
     };
     [end(-BELOW), apex(-BELOW), ([WAIST, BELOW], 1.0), apex(ABOVE), end(ABOVE)]
 }

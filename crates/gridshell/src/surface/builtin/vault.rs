@@ -21,7 +21,7 @@ pub(super) fn brep() -> Brep {
     let mut sketch = Sketch::new("vault");
     // Cosine and tangent of half the barrels' opening angle, and of a quarter of it.
     let (cosine, tangent) = ((RADIUS - RISE) / RADIUS, HALF / (RADIUS - RISE));
-    let half_cosine = ((1.0 + cosine) / 2.0).sqrt();
+    let half_cosine = f64::midpoint(1.0, cosine).sqrt();
     let half_tangent = HALF / (RADIUS + (RADIUS - RISE));
     let outwards = [DVec3::X, DVec3::Y, -DVec3::X, -DVec3::Y];
     let sideways = |k: usize| outwards[(k + 1) % 4];
