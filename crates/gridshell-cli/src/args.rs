@@ -43,6 +43,17 @@ pub struct Generate {
     /// Seed of every random choice.
     #[arg(short, long, value_name = "S")]
     pub seed: Option<u64>,
+    /// Lengths that vary: `curvature`, or a file of lines `x, y, z, length` (with an edge length or a number of
+    /// nodes only their proportions count).
+    #[arg(long, value_name = "curvature|FILE")]
+    pub size: Option<String>,
+    /// Direction of one family of lines: a vector `x,y,z`, a file of lines `x, y, z, dx, dy, dz`, or `boundary` for
+    /// the longest stretch of the boundary.
+    #[arg(long, value_name = "x,y,z|FILE|boundary", allow_hyphen_values = true)]
+    pub direction: Option<String>,
+    /// What the border is worth against the lines inside: 0 (one lattice, cut off) to 1 (rows along every border).
+    #[arg(long, value_name = "0..1", allow_negative_numbers = true)]
+    pub border: Option<f64>,
     /// Method: `default`, or `paper` for the method as printed.
     #[arg(short, long, value_name = "NAME")]
     pub method: Option<String>,

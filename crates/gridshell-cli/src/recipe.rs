@@ -2,7 +2,8 @@
 
 use crate::args::Generate;
 use crate::failure::Failure;
-use gridshell::recipe::Recipe;
+use gridshell::io;
+use gridshell::recipe::{Direction, Recipe, Size};
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -22,8 +23,31 @@ pub fn from_args(args: &Generate) -> Result<Recipe, Failure> {
     if let Some(seed) = args.seed {
         recipe.seed = seed;
     }
+    if let Some(size) = &args.size {
+        recipe.size = match size.as_str() {
+            "uniform" => Size::Uniform,
+            "curvature" => Size::curvature(),
+            file => Size::Points { points: io::read_lengths(Path::new(file))? },
+        };
+    }
+    if let Some(direction) = &args.direction {
+        recipe.direction = match (direction.as_str(), vector(direction)) {
+            ("boundary", _) => Direction::Boundary,
+            (_, Some(xyz)) => Direction::Vector { xyz },
+            (file, None) => Direction::Points { points: io::read_directions(Path::new(file))? },
+        };
+    }
+    if let Some(border) = args.border {
+        recipe.border = border;
+    }
     recipe.validate()?;
     Ok(recipe)
+}
+
+/// Three numbers parted by commas, if it is that.
+fn vector(text: &str) -> Option<[f64; 3]> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|w| w.trim().parse().ok()).collect();
+    numbers?.try_into().ok()
 }
 
 /// The recipe with what the file says laid over it.

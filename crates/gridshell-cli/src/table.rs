@@ -1,7 +1,7 @@
 //! Tables for people, after Table 3 of the paper.
 
 use gridshell::run::{Run, SurfaceSummary};
-use gridshell::stages::measure::Quality;
+use gridshell::stages::measure::{Lengths, Quality};
 use std::fmt::Write;
 
 const HEADER: &str = "\
@@ -120,6 +120,12 @@ fn checks(q: &Quality) -> String {
     );
     let _ =
         writeln!(text, "border: r {:.4}, q {:.3}", q.border.edge_length_cv, q.border.shape_mean);
+    if q.lengths == Lengths::OverLocal {
+        text += "lengths vary: r and members are over what is wanted where they are\n";
+    }
+    if let Some(off) = q.direction_deviation_deg {
+        let _ = writeln!(text, "off the wanted direction: {off:.1} deg");
+    }
     let _ = writeln!(
         text,
         "area ratio {:.4}; off the surface {:.1e} l0, off the boundary {:.1e} l0",

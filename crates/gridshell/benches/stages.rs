@@ -1,4 +1,5 @@
-//! Times of the stages on the saddle, over three sizes. Never a gate.
+//! Times of the stages on the saddle, over three sizes, and of what large grids need over 2,000, 10,000 and
+//! 100,000 nodes. Never a gate.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 #![allow(missing_docs, reason = "criterion's macros make functions without any")]
@@ -10,6 +11,7 @@ use gridshell::grid::Grid;
 use gridshell::job::Job;
 use gridshell::recipe::Recipe;
 use gridshell::stages::{pack, regularize, triangulate};
+use gridshell::surface::chart::Chart;
 use gridshell::surface::{Sampling, Surface, builtin};
 use std::hint::black_box;
 
@@ -82,8 +84,13 @@ fn stages(criterion: &mut Criterion) {
                 BatchSize::LargeInput,
             );
         });
-        let options =
-            balance::Options { straightness: 0.3, settled: 1e-6, max_steps: 10, accuracy: 1e-3 };
+        let options = balance::Options {
+            straightness: 0.3,
+            border: 2.0,
+            settled: 1e-6,
+            max_steps: 10,
+            accuracy: 1e-3,
+        };
         group.bench_function(id("balance 10 steps"), |b| {
             b.iter_batched_ref(
                 || grid.clone(),
@@ -95,5 +102,47 @@ fn stages(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, stages);
+/// Wanted members, metres: about 2,000, 10,000 and 100,000 nodes.
+const FINE_LENGTHS: [f64; 3] = [0.76, 0.338, 0.1062];
+
+/// What a lattice start is made of.
+fn scale(criterion: &mut Criterion) {
+    for length in FINE_LENGTHS {
+        let sampling =
+            Sampling { max_edge: 0.7 * length, chord_error: 2e-3 * length, corner_angle: 0.5 };
+        let model = builtin::model("saddle").unwrap();
+        let surface = model.surface(&sampling).unwrap();
+        let flatten = || {
+            let euler = surface.euler_characteristic();
+            Chart::flatten(&surface.carrier, &surface.loops, euler).unwrap()
+        };
+        let chart = flatten();
+        let mut rng = fastrand::Rng::with_seed(1);
+        let pieces = pack::boundary::pieces(&surface).len();
+        let lattice = pack::lattice::Lattice::draw(pieces, &mut rng);
+        let lay = || lattice.bubbles(&surface, &chart, length, 1.0);
+        let bubbles = lay();
+        let connect = || triangulate::triangulate_in_chart(&surface, &chart, &bubbles).unwrap();
+        let grid = connect();
+        let id = |stage: &str| BenchmarkId::new(stage, format!("{} nodes", grid.xyz.len()));
+        let mut group = criterion.benchmark_group("scale");
+        group.sample_size(10);
+        group.bench_function(id("tessellate"), |b| b.iter(|| model.surface(&sampling).unwrap()));
+        group.bench_function(id("flatten"), |b| b.iter(flatten));
+        group.bench_function(id("lay a lattice"), |b| b.iter(lay));
+        group.bench_function(id("triangulate in the chart"), |b| b.iter(connect));
+        let options =
+            balance::Options { straightness: 0.3, settled: 1e-6, max_steps: 3, accuracy: 0.05 };
+        group.bench_function(id("balance 3 steps"), |b| {
+            b.iter_batched_ref(
+                || grid.clone(),
+                |grid| balance(&surface, grid, &options, &Job::default()),
+                BatchSize::LargeInput,
+            );
+        });
+        group.finish();
+    }
+}
+
+criterion_group!(benches, stages, scale);
 criterion_main!(benches);

@@ -16,6 +16,9 @@ pub enum Place {
     Corner(ChainPoint),
 }
 
+/// Cosine of the turn of the surface along a sharp member.
+const SHARP: f64 = 0.35;
+
 /// A triangular grid on a design surface. Node `i` is vertex `i` of the mesh; none is missing.
 #[derive(Clone, Debug)]
 pub struct Grid {
@@ -33,13 +36,31 @@ impl Grid {
         self.xyz[a as usize].distance(self.xyz[b as usize])
     }
 
+    /// Wanted length of the member between `a` and `b` over the mean one: the mean of its ends'.
+    pub fn scale(&self, surface: &Surface, a: u32, b: u32) -> f64 {
+        if surface.scale.is_empty() {
+            return 1.0;
+        }
+        0.5 * (self.places[a as usize].scale(surface) + self.places[b as usize].scale(surface))
+    }
+
+    /// Length of the member between `a` and `b` over its scale, metres: l0 is what is wanted of all members.
+    pub fn scaled_length(&self, surface: &Surface, a: u32, b: u32) -> f64 {
+        self.length(a, b) / self.scale(surface, a, b)
+    }
+
     /// The members along which the surface turns by more than about seventy degrees: there chords say little
     /// of lengths along the surface, nor tangent planes of straight lines.
     pub fn sharp_members(&self, surface: &Surface) -> Vec<(u32, u32)> {
-        const SHARP: f64 = 0.35;
         let normals: Vec<DVec3> = self.places.iter().map(|p| p.normal(surface)).collect();
         let sharp = |&(a, b): &(u32, u32)| normals[a as usize].dot(normals[b as usize]) < SHARP;
         self.mesh.edges().filter(sharp).collect()
+    }
+
+    /// Whether the member is one of [`Grid::sharp_members`].
+    pub fn is_sharp(&self, surface: &Surface, a: u32, b: u32) -> bool {
+        let normal = |v: u32| self.places[v as usize].normal(surface);
+        normal(a).dot(normal(b)) < SHARP
     }
 
     /// All positions, x y z of one node after the other.
@@ -185,6 +206,11 @@ impl Place {
                 surface.loops[c.chain as usize].surface_point(c.s)
             }
         }
+    }
+
+    /// Wanted length here over the mean one; 1 everywhere unless lengths are to vary.
+    pub fn scale(&self, surface: &Surface) -> f64 {
+        if surface.scale.is_empty() { 1.0 } else { surface.scale_at(&self.surface_point(surface)) }
     }
 
     /// Unit normal of the carrier here.

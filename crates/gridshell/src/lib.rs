@@ -32,6 +32,7 @@ pub mod grid;
 pub mod io;
 pub mod job;
 pub mod math;
+pub mod merit;
 pub mod mesh;
 pub mod pipeline;
 pub mod recipe;

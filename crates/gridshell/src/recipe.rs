@@ -14,10 +14,18 @@ pub struct Recipe {
     pub edge_length: Option<f64>,
     /// Wanted number of nodes; used when `edge_length` is None.
     pub nodes: Option<usize>,
+    /// How the wanted length varies over the surface.
+    pub size: Size,
+    /// Direction that one family of lines is to follow where the shape allows.
+    pub direction: Direction,
     /// Seed of every random choice.
     pub seed: u64,
     /// Boundary vertices where the boundary turns by more than this are corners (fixed nodes), degrees.
     pub corner_angle_deg: f64,
+    /// What the border is worth. From 0 on, panels and members at the border weigh more against the lines inside
+    /// ([`Recipe::border_weight`]). Above 0.5 rows of members follow the borders that the lattice lies nearly
+    /// parallel to ([`Recipe::row_angle`]), at 1 all borders.
+    pub border: f64,
     /// Options of packing.
     pub pack: Pack,
     /// Options of regularizing.
@@ -26,6 +34,116 @@ pub struct Recipe {
     pub relax: Relax,
     /// Options of measuring.
     pub measure: Measure,
+}
+
+/// How the wanted length varies over the surface. It changes by no more than about a quarter from a member to the
+/// next one, whatever is asked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+pub enum Size {
+    /// One length everywhere.
+    Uniform,
+    /// Shorter where the surface bends more.
+    Curvature {
+        /// Shortest and longest length; 1 stands for the root mean square curvature.
+        #[serde(default = "Size::default_range")]
+        range: [f64; 2],
+        /// The length goes as curvature to the power of minus half of this: at 1 panels are everywhere about as far
+        /// off the surface, at 0 lengths are uniform.
+        #[serde(default = "Size::default_strength")]
+        strength: f64,
+    },
+    /// Blended smoothly from lengths at points. With an edge length or a number of nodes only their proportions
+    /// count, without either they are metres.
+    Points {
+        /// x, y, z, length.
+        points: Vec<[f64; 4]>,
+    },
+}
+
+/// Direction that one family of lines is to follow.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+pub enum Direction {
+    /// Any will do.
+    Any,
+    /// The same everywhere, laid into the surface.
+    Vector {
+        /// Its components.
+        xyz: [f64; 3],
+    },
+    /// Blended smoothly from vectors at points.
+    Points {
+        /// x, y, z, and the vector's components.
+        points: Vec<[f64; 6]>,
+    },
+    /// That of the longest stretch of the boundary between two corners.
+    Boundary,
+}
+
+impl Size {
+    /// By curvature, as much as suits most shapes.
+    pub fn curvature() -> Size {
+        Size::Curvature { range: Size::default_range(), strength: Size::default_strength() }
+    }
+
+    fn default_range() -> [f64; 2] {
+        [0.6, 1.6]
+    }
+
+    fn default_strength() -> f64 {
+        1.0
+    }
+
+    fn validate(&self) -> Result<()> {
+        match self {
+            Size::Uniform => Ok(()),
+            Size::Curvature { range, strength } => {
+                within("size.range", range[0], 0.05, 1.0)?;
+                within("size.range", range[1], 1.0, 20.0)?;
+                within("size.strength", *strength, 0.0, 4.0)
+            }
+            Size::Points { points } => {
+                within("the number of size.points", points.len() as f64, 1.0, MOST_POINTS)?;
+                for p in points {
+                    coordinates("size.points", p)?;
+                    within("a length of size.points", p[3], 1e-9, 1e9)?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl Direction {
+    fn validate(&self) -> Result<()> {
+        let nonzero = |v: &[f64]| {
+            let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+            within("the length of a direction's vector", length, 1e-9, 1e12)
+        };
+        match self {
+            Direction::Any | Direction::Boundary => Ok(()),
+            Direction::Vector { xyz } => {
+                coordinates("direction.xyz", xyz)?;
+                nonzero(xyz)
+            }
+            Direction::Points { points } => {
+                within("the number of direction.points", points.len() as f64, 1.0, MOST_POINTS)?;
+                for p in points {
+                    coordinates("direction.points", p)?;
+                    nonzero(&p[3..])?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+/// Lengths or directions given at more points than this are refused: blending takes their number cubed.
+const MOST_POINTS: f64 = 2000.0;
+
+fn coordinates(name: &str, values: &[f64]) -> Result<()> {
+    values.iter().try_for_each(|&x| within(&format!("a number of {name}"), x, -1e12, 1e12))
 }
 
 /// How the bubbles start and settle (Sections 4.1 and 4.2).
@@ -80,8 +198,10 @@ pub struct Regularize {
     pub most_trials: usize,
     /// Grids searched side by side; the best is kept.
     pub candidates: usize,
-    /// How many of them, the best, are relaxed to the end.
-    pub finalists: usize,
+    /// Heats of polishing: how many candidates, the best, come through to it, and trials per irregular node.
+    pub heats: Vec<[usize; 2]>,
+    /// Trials of one grid in one heat at most.
+    pub most_polish: usize,
     /// Weight w of the residual R in the search's energy, sum of (l / l0 - 1)^2 + w R.
     pub residual_weight: f64,
     /// First and last temperature of the search, in units of that energy.
@@ -135,8 +255,11 @@ impl Default for Recipe {
         Recipe {
             edge_length: None,
             nodes: None,
+            size: Size::Uniform,
+            direction: Direction::Any,
             seed: 1,
             corner_angle_deg: 30.0,
+            border: 0.25,
             pack: Pack::default(),
             regularize: Regularize::default(),
             relax: Relax::default(),
@@ -171,7 +294,8 @@ impl Default for Regularize {
             trials: 6000,
             most_trials: 240_000,
             candidates: 16,
-            finalists: 4,
+            heats: vec![[16, 40], [5, 120], [2, 300]],
+            most_polish: 30_000,
             residual_weight: 0.6,
             temperature: [0.15, 0.03],
         }
@@ -226,6 +350,20 @@ impl Recipe {
     }
 }
 
+impl Recipe {
+    /// Weight of the lengths of members that touch the border against others: 1 to 5.
+    pub fn border_weight(&self) -> f64 {
+        1.0 + 4.0 * self.border
+    }
+
+    /// Rows follow the borders that the lattice is off by at most this angle, radians; None where there are no
+    /// rows.
+    pub fn row_angle(&self) -> Option<f64> {
+        // A lattice has a line within thirty degrees of any direction.
+        (self.border > 0.5).then_some((2.0 * self.border - 1.0) * std::f64::consts::FRAC_PI_6)
+    }
+}
+
 /// More nodes than this are refused: time and memory would run out first.
 const MAX_NODES: f64 = 2e6;
 
@@ -242,7 +380,10 @@ impl Recipe {
         if let Some(nodes) = self.nodes {
             within("nodes", nodes as f64, 3.0, MAX_NODES)?;
         }
+        self.size.validate()?;
+        self.direction.validate()?;
         within("corner_angle_deg", self.corner_angle_deg, 0.0, 180.0)?;
+        within("border", self.border, 0.0, 1.0)?;
         within("measure.lambda", self.measure.lambda, 0.0, 1.0)?;
 
         let pack = &self.pack;

@@ -3,8 +3,8 @@
 //! Serialised, a [`Run`] is the document `gridshell.run/1`; the grids themselves are left out of it.
 
 use crate::grid::Grid;
-use crate::recipe::Recipe;
-use crate::stages::measure::{IrregularNode, Quality};
+use crate::recipe::{self, Recipe};
+use crate::stages::measure::{Border, IrregularNode, Quality};
 use crate::surface::{Model, Surface};
 use glam::DVec3;
 use serde::Serialize;
@@ -29,6 +29,8 @@ pub struct Run {
     pub edge_length: f64,
     /// The recipe, complete.
     pub recipe: Recipe,
+    /// The candidates, the one that was kept first and the others by how far they came.
+    pub candidates: Vec<CandidateReport>,
     /// The stages in their order.
     pub stages: Vec<StageReport>,
     /// Measures of the final grid.
@@ -42,6 +44,31 @@ pub struct Run {
     /// The final grid.
     #[serde(skip)]
     pub grid: Grid,
+}
+
+/// One of the candidates that a grid was chosen from, as it was when it was left behind (before relaxing).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CandidateReport {
+    /// Its seed, derived from the run's.
+    pub seed: u64,
+    /// `lattice` or `random`.
+    pub start: recipe::Start,
+    /// Heats of polishing that it came through.
+    pub heats: usize,
+    /// What candidates are ranked by: fluency, held back by the guards of length spread, border and worst parts.
+    pub merit: f64,
+    /// Fluency Q; None when it is infinite.
+    pub fluency: Option<f64>,
+    /// Average nodal degree residual mu.
+    pub mu: f64,
+    /// Mean angle fluency index, degrees.
+    pub delta_deg: f64,
+    /// Length spread r.
+    pub cv: f64,
+    /// Mean member length over the wanted one.
+    pub mean_length_ratio: f64,
+    /// Mean shape of the panels at the border, and length spread of its members.
+    pub border: Border,
 }
 
 /// What one stage did.

@@ -8,9 +8,11 @@ mod ply;
 mod scan;
 pub mod step;
 mod stl;
+mod values;
 mod weld;
 
 pub use grid_file::GridFile;
+pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
 use crate::surface::{Model, PolygonMesh, builtin};

@@ -3,7 +3,11 @@
 //! `+ - * / sqrt` are exact by IEEE 754; everything else goes through `libm` here, so that the same
 //! seed gives the same grid everywhere.
 
+pub(crate) mod blend;
+pub(crate) mod chunks;
 pub(crate) mod conjugate;
 pub(crate) mod delaunay;
 pub mod dual;
+pub(crate) mod multigrid;
+pub(crate) mod sparse;
 pub mod trig;

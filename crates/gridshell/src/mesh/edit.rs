@@ -39,10 +39,25 @@ impl Undo {
         self.touched.iter().map(|t| t.0)
     }
 
+    /// Whether the edits together changed nothing in `mesh`.
+    pub fn is_idle(&self, mesh: &Mesh) -> bool {
+        self.touched.iter().enumerate().all(|(k, (v, ring, _))| {
+            let again = self.touched[..k].iter().any(|t| t.0 == *v);
+            again || is_turned(ring, mesh.ring(*v))
+        })
+    }
+
     /// Forget everything: keep the edits.
     pub fn clear(&mut self) {
         self.touched.clear();
     }
+}
+
+/// Whether two rings are the same up to where they begin.
+fn is_turned(a: &[u32], b: &[u32]) -> bool {
+    let Some(first) = a.first() else { return b.is_empty() };
+    let Some(turn) = b.iter().position(|x| x == first) else { return false };
+    a.len() == b.len() && (0..a.len()).all(|i| a[i] == b[(i + turn) % b.len()])
 }
 
 impl Mesh {

@@ -1,12 +1,14 @@
-//! Candidates against one another: all are regularized, the best are relaxed to the end, one wins.
+//! Candidates against one another: all are annealed, then polished in heats that fewer and fewer come through,
+//! the last ones are relaxed to the end, and the one of highest merit wins.
 
-use super::score;
 use super::starts::Start;
 use crate::balance::{self, balance};
 use crate::grid::Grid;
 use crate::job::Job;
+use crate::merit::Sums;
 use crate::recipe::{Recipe, RegularizeMethod};
-use crate::stages::measure::compare;
+use crate::run::CandidateReport;
+use crate::stages::measure::{Border, bridging_members};
 use crate::stages::{regularize, relax, triangulate};
 use crate::surface::Surface;
 use rayon::prelude::*;
@@ -22,7 +24,10 @@ pub struct Candidate {
     pub grid: Grid,
     /// What regularizing did.
     pub report: regularize::Report,
-    points: f64,
+    /// How many heats it came through.
+    pub heats: usize,
+    sums: Sums,
+    merit: f64,
 }
 
 /// The candidate that won.
@@ -37,10 +42,11 @@ pub struct Winner {
     pub grid: Grid,
     /// What relaxing did.
     pub relaxed: relax::Report,
-    points: f64,
+    flaws: usize,
+    merit: f64,
 }
 
-/// Regularize every triangulated start; of a search, give only the finalists. The best first.
+/// Regularize every triangulated start. The best first; those of the search that came through all heats lead.
 pub fn regularize(
     surface: &Surface,
     starts: &[Start],
@@ -49,55 +55,129 @@ pub fn regularize(
     recipe: &Recipe,
     job: &Job,
 ) -> Vec<Candidate> {
-    let points = |grid: &Grid| score(&compare(grid, surface, length, &recipe.measure));
+    let searched = recipe.regularize.method == RegularizeMethod::Search;
     let mut candidates: Vec<Candidate> = triangulated
         .par_iter()
         .zip(starts)
         .enumerate()
         .map(|(start, ((grid, _), Start { seed, .. }))| {
-            let (grid, report) =
+            let (mut grid, report) =
                 regularize::regularize(surface, grid.clone(), length, recipe, *seed, job);
-            let mut balanced = grid.clone();
-            settle(surface, &mut balanced, recipe);
-            let points = points(&balanced);
-            let searched = recipe.regularize.method == RegularizeMethod::Search;
-            let grid = if searched { balanced } else { grid };
-            Candidate { start, grid, report, points }
+            if searched {
+                settle(surface, &mut grid, recipe);
+            }
+            Candidate::new(surface, start, grid, report, length, recipe)
         })
         .collect();
-    // A stable sort: equals stay in the order of their starts.
-    candidates.sort_by(|a, b| b.points.total_cmp(&a.points));
-    if recipe.regularize.method == RegularizeMethod::Paper {
+    rank(&mut candidates);
+    if !searched {
         return candidates;
     }
-    candidates.truncate(recipe.regularize.finalists.max(1));
+    for (heat, &[through, trials]) in recipe.regularize.heats.iter().enumerate() {
+        let through = through.clamp(1, candidates.len());
+        candidates[..through].par_iter_mut().for_each(|c| {
+            let seed = starts[c.start].seed.wrapping_add(heat as u64 + 1);
+            let (grid, report) =
+                regularize::polish(surface, c.grid.clone(), length, recipe, trials, seed, job);
+            let polished =
+                Candidate::new(surface, c.start, grid, c.report.and(&report), length, recipe);
+            // Polishing gives back the best it met, up to the last balance.
+            if polished.merit >= c.merit {
+                *c = polished;
+            }
+            c.heats = heat + 1;
+        });
+        rank(&mut candidates);
+    }
     candidates
 }
 
-/// Relax the candidates; the best wins.
+/// Relax the candidates that came furthest; the best wins. `None` without any.
 pub fn relax(
     surface: &Surface,
-    candidates: Vec<Candidate>,
+    candidates: &[Candidate],
     length: f64,
     recipe: &Recipe,
     job: &Job,
 ) -> Option<Winner> {
-    let relaxed: Vec<Winner> = candidates
+    let furthest = candidates.first()?.heats;
+    let finalists: Vec<&Candidate> =
+        candidates.iter().take_while(|c| c.heats == furthest).take(FINALISTS).collect();
+    let relaxed: Vec<Winner> = finalists
         .into_par_iter()
-        .map(|Candidate { start, grid: before, report: regularized, .. }| {
-            let mut grid = before.clone();
-            let relaxed = relax::relax(surface, &mut grid, &recipe.relax, job);
-            let points = score(&compare(&grid, surface, length, &recipe.measure));
-            Winner { start, before, regularized, grid, relaxed, points }
+        .map(|c| {
+            let mut grid = c.grid.clone();
+            let relaxed = relax::relax(surface, &mut grid, recipe, job);
+            let sums = Sums::whole(&grid, surface, length, recipe.measure.lambda);
+            Winner {
+                start: c.start,
+                before: c.grid.clone(),
+                regularized: c.report,
+                flaws: bridging_members(&grid, surface, length),
+                merit: sums.merit(recipe.measure.lambda),
+                grid,
+                relaxed,
+            }
         })
         .collect();
     // The first of equals: candidates come best first.
-    relaxed.into_iter().rev().max_by(|a, b| a.points.total_cmp(&b.points))
+    let better = |a: &Winner, b: &Winner| b.flaws.cmp(&a.flaws).then(a.merit.total_cmp(&b.merit));
+    relaxed.into_iter().rev().max_by(better)
+}
+
+/// Candidates that are relaxed to the end.
+const FINALISTS: usize = 4;
+
+/// The furthest first, and of those the best. A stable sort: equals stay in their order.
+fn rank(candidates: &mut [Candidate]) {
+    candidates.sort_by(|a, b| b.heats.cmp(&a.heats).then(b.merit.total_cmp(&a.merit)));
+}
+
+impl Candidate {
+    fn new(
+        surface: &Surface,
+        start: usize,
+        grid: Grid,
+        report: regularize::Report,
+        length: f64,
+        recipe: &Recipe,
+    ) -> Candidate {
+        let sums = Sums::whole(&grid, surface, length, recipe.measure.lambda);
+        let merit = sums.merit(recipe.measure.lambda);
+        Candidate { start, grid, report, sums, heats: 0, merit }
+    }
+}
+
+/// The table of all candidates, the winner's first.
+pub fn table(
+    candidates: &[Candidate],
+    winner: usize,
+    starts: &[Start],
+    recipe: &Recipe,
+) -> Vec<CandidateReport> {
+    let report = |c: &Candidate| CandidateReport {
+        seed: starts[c.start].seed,
+        start: starts[c.start].kind(),
+        heats: c.heats,
+        merit: c.merit,
+        fluency: c.sums.fluency(recipe.measure.lambda),
+        mu: c.sums.mu(),
+        delta_deg: c.sums.delta_deg(),
+        cv: c.sums.members.cv(),
+        mean_length_ratio: c.sums.members.mean(),
+        border: Border {
+            shape_mean: c.sums.border_shape_mean(),
+            edge_length_cv: c.sums.border_members.cv(),
+        },
+    };
+    let (kept, left): (Vec<_>, Vec<_>) = candidates.iter().partition(|c| c.start == winner);
+    kept.into_iter().chain(left).map(report).collect()
 }
 
 fn settle(surface: &Surface, grid: &mut Grid, recipe: &Recipe) {
     let options = balance::Options {
         straightness: recipe.relax.straightness,
+        border: recipe.border_weight(),
         settled: 1e-3,
         max_steps: TRIAL_STEPS,
         accuracy: 0.05,

@@ -1,31 +1,28 @@
 //! The whole method: the only place that knows the order of the stages.
 //!
 //! Several starts (lattices drawn at random and judged in a quick run, or bubble packings) go through
-//! triangulate and regularize side by side; the best grid by [`score`] is relaxed and put on the exact surface.
+//! triangulate and regularize side by side; the best grid by [`crate::merit`] is relaxed and put on the exact surface.
 //! Every choice is seeded by the recipe and the place in its list, so the grid is the same for any number of
 //! threads. A job that is stopped still ends with the best grid so far.
 
 mod contest;
+mod effort;
 mod narrow;
-mod score;
 mod starts;
-
-pub use score::score;
+mod wishes;
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::job::Job;
 use crate::recipe::Recipe;
-use crate::run::{Run, SCHEMA, StageReport, SurfaceSummary};
+use crate::run::{CandidateReport, Run, SCHEMA, StageReport, SurfaceSummary};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
-use crate::surface::{Model, Sampling, Surface, builtin};
+use crate::surface::{Model, Ruler, Sampling, Surface, builtin};
 use rayon::prelude::*;
 use starts::{Start, Starts};
 use std::time::Instant;
 
-/// Carrier edges over l0: fine enough for nodes to walk smoothly and boundaries to be followed.
-const CARRIER_EDGE: f64 = 0.5;
 /// Chord error of the carrier over l0. Nodes end on the exact surface; until then they may be this far off.
 const CARRIER_CHORD: f64 = 2e-3;
 /// Nodes of a grid whose edge length nobody gave.
@@ -38,13 +35,14 @@ const SENSIBLE_NODES: usize = 1000;
 /// [`Error::NoGrid`] where no valid grid of this edge length exists.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
-    let length = edge_length(model, recipe)?;
-    let surface = model.surface(&sampling(length, recipe))?;
+    let Scale { length, nodes } = scale(model, recipe)?;
+    let surface = wishes::surface(model, recipe, length, |l| sampling(l, nodes, recipe))?;
+    let budget = effort::budgeted(recipe, nodes);
     let mut stages = Vec::new();
     let judge = |grid: &Grid| measure(grid, &surface, length, &recipe.measure);
 
     let clock = Instant::now();
-    let Starts { starts, notes } = starts::starts(&surface, length, recipe, job)?;
+    let Starts { starts, notes } = starts::starts(&surface, length, &budget, job)?;
     let packed = clock.elapsed().as_secs_f64();
 
     let clock = Instant::now();
@@ -58,12 +56,13 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     let triangulated_in = clock.elapsed().as_secs_f64();
 
     let clock = Instant::now();
-    let candidates = contest::regularize(&surface, &starts, &triangulated, length, recipe, job);
+    let candidates = contest::regularize(&surface, &starts, &triangulated, length, &budget, job);
     let regularized_in = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
-    let Some(winner) = contest::relax(&surface, candidates, length, recipe, job) else {
+    let Some(winner) = contest::relax(&surface, &candidates, length, &budget, job) else {
         return Err(Error::Surface("the surface has no room for a single node".into()));
     };
+    let table = contest::table(&candidates, winner.start, &starts, recipe);
     let relaxed_in = clock.elapsed().as_secs_f64();
 
     let Start { report: settled, bubbles, .. } = &starts[winner.start];
@@ -109,7 +108,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         grid: Some(grid.clone()),
     });
     warnings.extend(narrow::warnings(&surface, &grid, length));
-    finish(model, &surface, recipe, length, stages, warnings, quality, grid, job)
+    finish(model, &surface, recipe, length, table, stages, warnings, quality, grid, job)
 }
 
 #[expect(clippy::too_many_arguments, reason = "the parts of a run, gathered once")]
@@ -118,6 +117,7 @@ fn finish(
     surface: &Surface,
     recipe: &Recipe,
     length: f64,
+    candidates: Vec<CandidateReport>,
     stages: Vec<StageReport>,
     warnings: Vec<String>,
     quality: Quality,
@@ -133,6 +133,7 @@ fn finish(
         surface: SurfaceSummary::new(model, surface),
         edge_length: length,
         recipe: recipe.clone(),
+        candidates,
         stages,
         irregular: irregular_nodes(&grid),
         quality,
@@ -181,10 +182,10 @@ fn warnings(surface: &Surface, wanted: usize, report: &triangulate::Report) -> V
     warnings
 }
 
-/// The carrier that suits members of `length` metres.
-fn sampling(length: f64, recipe: &Recipe) -> Sampling {
+/// The carrier that suits about `nodes` nodes with members of `length` metres.
+fn sampling(length: f64, nodes: f64, recipe: &Recipe) -> Sampling {
     Sampling {
-        max_edge: CARRIER_EDGE * length,
+        max_edge: effort::carrier_edge(nodes) * length,
         chord_error: CARRIER_CHORD * length,
         corner_angle: recipe.corner_angle_deg.to_radians(),
     }
@@ -196,14 +197,27 @@ fn sampling(length: f64, recipe: &Recipe) -> Sampling {
 /// [`Error::Option`] as [`Recipe::check_edge_length`], [`Error::Surface`] as
 /// [`Model::surface`].
 pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
+    Ok(scale(model, recipe)?.length)
+}
+
+/// How large a grid is.
+struct Scale {
+    /// Wanted length, metres.
+    length: f64,
+    /// About how many nodes that makes.
+    nodes: f64,
+}
+
+fn scale(model: &Model, recipe: &Recipe) -> Result<Scale> {
     let size = model.size();
     let rough = Sampling {
         max_edge: 0.02 * size,
         chord_error: 1e-3 * size,
         corner_angle: recipe.corner_angle_deg.to_radians(),
     };
-    let surface = model.surface(&rough)?;
-    let length = match (recipe.edge_length, recipe.nodes) {
+    let mut surface = model.surface(&rough)?;
+    let mean = wishes::grade(&mut surface, recipe, recipe.edge_length);
+    let length = match (mean.or(recipe.edge_length), recipe.nodes) {
         (Some(length), _) => length,
         (None, Some(nodes)) => length_for(&surface, nodes),
         (None, None) => builtin::ALL
@@ -212,15 +226,27 @@ pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
             .map_or_else(|| length_for(&surface, SENSIBLE_NODES), |b| b.edge_length),
     };
     Recipe::check_edge_length(length, surface.area)?;
-    Ok(length)
+    Ok(Scale { length, nodes: nodes_for(&surface, length) })
 }
 
-/// The edge length that makes about `nodes` nodes: n = A / (2 A0) + n_b / 2 + chi (Eq. 1 with the boundary).
+/// About how many nodes members of `length` metres make: n = A / (2 A0) + n_b / 2 + chi (Eq. 1 with the
+/// boundary).
+fn nodes_for(surface: &Surface, length: f64) -> f64 {
+    let (area, rim) = room(surface);
+    area / (length * length) + rim / length + surface.euler_characteristic() as f64
+}
+
+/// The edge length that makes about `nodes` nodes: [`nodes_for`] solved for it.
 fn length_for(surface: &Surface, nodes: usize) -> f64 {
-    let area = surface.area * 2.0 / 3f64.sqrt();
-    let rim: f64 = surface.loops.iter().map(|l| 0.5 * l.length()).sum();
+    let (area, rim) = room(surface);
     let count = (nodes as f64 - surface.euler_characteristic() as f64).max(3.0);
     // count = area / l^2 + rim / l, solved for 1 / l.
     let inverse = ((rim * rim + 4.0 * area * count).sqrt() - rim) / (2.0 * area);
     1.0 / inverse
+}
+
+/// Twice the panels' share of the area, and half the boundary, in units of local lengths.
+fn room(surface: &Surface) -> (f64, f64) {
+    let rim = surface.loops.iter().map(|l| 0.5 * Ruler::new(surface, l).whole()).sum();
+    (surface.room() * 2.0 / 3f64.sqrt(), rim)
 }

@@ -1,7 +1,7 @@
 //! Places where the surface is narrower than a member: short loops, and members across a neck.
 
 use crate::grid::{Grid, Place};
-use crate::surface::Surface;
+use crate::surface::{Ruler, Surface};
 use glam::DVec3;
 
 /// Shorter than this share of l0, a member across is forced by the surface.
@@ -13,7 +13,8 @@ const MOST: usize = 8;
 
 /// A warning for each place of `grid` where the surface has no room for members of `length` metres.
 pub fn warnings(surface: &Surface, grid: &Grid, length: f64) -> Vec<String> {
-    let places = thinned(short_loops(surface, length).chain(necks(grid, length)), APART * length);
+    let places =
+        thinned(short_loops(surface, length).chain(necks(surface, grid, length)), APART * length);
     let mut warnings: Vec<String> = places
         .iter()
         .take(MOST)
@@ -32,16 +33,21 @@ pub fn warnings(surface: &Surface, grid: &Grid, length: f64) -> Vec<String> {
 
 /// Loops that are too short for three members: where each begins.
 fn short_loops(surface: &Surface, length: f64) -> impl Iterator<Item = DVec3> + '_ {
-    let short = surface.loops.iter().filter(move |l| l.length() < 3.0 * SHORT * length);
+    let short =
+        surface.loops.iter().filter(move |l| Ruler::new(surface, l).whole() < 3.0 * SHORT * length);
     short.map(|l| l.exact(surface, 0.0))
 }
 
 /// Short members from boundary to boundary through the inside: where the middle of each is.
-fn necks(grid: &Grid, length: f64) -> impl Iterator<Item = DVec3> + '_ {
+fn necks<'a>(
+    surface: &'a Surface,
+    grid: &'a Grid,
+    length: f64,
+) -> impl Iterator<Item = DVec3> + 'a {
     let inside = |v: u32| matches!(grid.places[v as usize], Place::Interior(_));
     let across = move |&(a, b): &(u32, u32)| {
         let through = !inside(a) && !inside(b) && !grid.mesh.is_boundary_edge(a, b);
-        through && grid.length(a, b) < SHORT * length
+        through && grid.length(a, b) < SHORT * length * grid.scale(surface, a, b)
     };
     let middle = |(a, b): (u32, u32)| grid.xyz[a as usize].midpoint(grid.xyz[b as usize]);
     grid.mesh.edges().filter(across).map(middle)

@@ -1,13 +1,12 @@
 //! The bubbles that candidates start from.
 
-use super::score;
 use crate::balance::{self, balance};
 use crate::bubbles::Bubbles;
 use crate::error::Result;
 use crate::grid::Grid;
 use crate::job::Job;
+use crate::merit::Sums;
 use crate::recipe::{self, Recipe};
-use crate::stages::measure::compare;
 use crate::stages::{pack, triangulate};
 use crate::surface::{Surface, chart::Chart};
 use pack::lattice::Lattice;
@@ -25,6 +24,13 @@ pub struct Start {
     pub grid: Option<Grid>,
 }
 
+impl Start {
+    /// Where the bubbles came from: only packings settle.
+    pub fn kind(&self) -> recipe::Start {
+        if self.report.is_some() { recipe::Start::Random } else { recipe::Start::Lattice }
+    }
+}
+
 /// The starts of all candidates, and what is to be said about them.
 pub struct Starts {
     /// At least one.
@@ -39,14 +45,16 @@ const TRIAL_STEPS: usize = 3;
 /// Random bubbles start no nearer to a boundary bubble than this, over l0.
 const CLEAR: f64 = 0.6;
 
+/// A lattice that is to follow a direction is off it by at most this angle (one degree), radians.
+const SWAY: f64 = std::f64::consts::PI / 180.0;
+
 /// Mean strain of a chart beyond which lattices laid on it are poor starts.
 const STRAINED: f64 = 0.03;
 
 /// The starts that the recipe asks for; bubbles where a lattice is wanted but the surface has no chart.
 pub fn starts(surface: &Surface, length: f64, recipe: &Recipe, job: &Job) -> Result<Starts> {
     if recipe.pack.start == recipe::Start::Lattice
-        && let Some(chart) =
-            Chart::flatten(&surface.carrier, &surface.loops, surface.euler_characteristic())
+        && let Some(chart) = Chart::flatten(surface)
     {
         return lattices(surface, &chart, length, recipe, job);
     }
@@ -93,10 +101,12 @@ fn lattices(
     let draws = recipe.pack.draws.max(1);
     let trial = balance::Options {
         straightness: recipe.relax.straightness,
+        border: recipe.border_weight(),
         settled: 1e-3,
         max_steps: TRIAL_STEPS,
         accuracy: 0.1,
     };
+    let wanted = chart.wanted_angle(surface);
     let judged: Vec<Option<(f64, Start)>> = (0..draws as u64)
         .into_par_iter()
         .map(|k| {
@@ -107,14 +117,18 @@ fn lattices(
             let mut rng = fastrand::Rng::with_seed(seed);
             let mut lattice = Lattice::draw(pieces, &mut rng);
             // Every other draw runs with the border somewhere, the longer the stretch the likelier.
-            if k % 2 == 0 {
+            if let Some(angle) = wanted {
+                lattice.angle = angle + SWAY * (2.0 * rng.f64() - 1.0);
+            } else if k % 2 == 0 {
                 lattice.angle = chart.border_direction(&surface.loops, rng.f64());
             }
-            let bubbles = lattice.bubbles(surface, chart, length, recipe.pack.k_n);
+            let bubbles =
+                lattice.bubbles(surface, chart, length, recipe.pack.k_n, recipe.row_angle());
             let start = connect(surface, chart, &bubbles)?;
             let mut grid = start.clone();
             balance(surface, &mut grid, &trial, &Job::default());
-            let points = score(&compare(&grid, surface, length, &recipe.measure));
+            let lambda = recipe.measure.lambda;
+            let points = Sums::whole(&grid, surface, length, lambda).merit(lambda);
             Ok(Some((points, Start { bubbles, seed, report: None, grid: Some(start) })))
         })
         .collect::<Result<_>>()?;
@@ -123,7 +137,7 @@ fn lattices(
     judged.sort_by(|a, b| b.0.total_cmp(&a.0));
     let candidates = recipe.regularize.candidates.max(1);
     // Where the chart strains, a lattice does too: bubbles take part.
-    let packed = if chart.strain(&surface.carrier) > STRAINED { candidates / 4 } else { 0 };
+    let packed = if chart.strain(surface) > STRAINED { candidates / 4 } else { 0 };
     judged.truncate(candidates - packed);
     let notes = vec![format!(
         "lattice start: the best {} of {draws} draws, and {packed} packings",

@@ -6,15 +6,21 @@
 //! to mesh parameterization*, 2008). Only for one connected piece of genus 0 with a boundary; a chart may
 //! still overlap itself (a spiral does), which a lattice does not mind.
 
-use super::{Carrier, Chain};
-use crate::math::conjugate::conjugate_gradients;
+use super::{Carrier, Chain, ChainPoint, Surface, SurfacePoint};
+use crate::math::conjugate::{conjugate_gradients, product};
+use crate::math::multigrid::Multigrid;
+use crate::math::sparse::{Row, Sparse};
 use crate::math::trig::{atan2, cos, sin};
 use glam::{DMat2, DVec2, DVec3};
 
 /// Local/global steps from a projection, and from Tutte's embedding, which is farther off.
 const STEPS: [usize; 2] = [16, 60];
-/// Conjugate-gradient steps in each, from where the last one ended.
+/// Conjugate-gradient steps in each at most, from where the last one ended; a dozen is usual.
 const SOLVER_STEPS: usize = 80;
+/// What a step leaves of its first residual: the next one turns the triangles anyway.
+const ACCURACY: f64 = 1e-2;
+/// Rigid enough when a step begins with a residual below this share of the right side.
+const SETTLED: f64 = 1e-6;
 /// Smallest cotangent weight; obtuse pairs would make the system indefinite.
 const LEAST_WEIGHT: f64 = 0.02;
 
@@ -28,20 +34,23 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// Flatten a carrier; None where that makes no sense: closed, not connected, or with handles.
-    pub fn flatten(carrier: &Carrier, loops: &[Chain], euler_characteristic: i64) -> Option<Chart> {
+    /// Flatten a surface, as its scale shrinks and stretches it where lengths are to vary; None where that makes no
+    /// sense: closed, not connected, or with handles.
+    pub fn flatten(surface: &Surface) -> Option<Chart> {
+        let (carrier, loops) = (&surface.carrier, &surface.loops);
         // chi = 2 - 2 genus - loops for one piece.
         if loops.is_empty()
-            || euler_characteristic != 2 - loops.len() as i64
+            || surface.euler_characteristic() != 2 - loops.len() as i64
             || !is_connected(carrier)
         {
             return None;
         }
         let (uv, steps) = match projection(carrier) {
-            Some(uv) => (uv, STEPS[0]),
+            Some(uv) if surface.scale.is_empty() => (uv, STEPS[0]),
+            Some(uv) => (uv, STEPS[1]),
             None => (tutte(carrier, loops), STEPS[1]),
         };
-        let mut chart = Chart { uv: as_rigid_as_possible(carrier, uv, steps), upright: true };
+        let mut chart = Chart { uv: as_rigid_as_possible(surface, uv, steps), upright: true };
         chart.upright = (0..carrier.triangles.len()).all(|t| {
             let [p, q, r] = chart.corners(carrier, t);
             (q - p).perp_dot(r - p) > 0.0
@@ -49,13 +58,15 @@ impl Chart {
         Some(chart)
     }
 
-    /// How much the chart stretches and shrinks: root mean square of (length in the chart / on the carrier - 1).
-    pub fn strain(&self, carrier: &Carrier) -> f64 {
+    /// How much the chart stretches and shrinks: root mean square of (length in the chart / on the surface - 1).
+    pub fn strain(&self, surface: &Surface) -> f64 {
+        let carrier = &surface.carrier;
         let (mut sum, mut count) = (0.0, 0.0);
-        for corners in &carrier.triangles {
+        for (t, corners) in carrier.triangles.iter().enumerate() {
+            let scale = scale(surface, t);
             for k in 0..3 {
                 let (a, b) = (corners[k] as usize, corners[(k + 1) % 3] as usize);
-                let length = carrier.points[a].distance(carrier.points[b]);
+                let length = carrier.points[a].distance(carrier.points[b]) / scale;
                 let strain = self.uv[a].distance(self.uv[b]) / length - 1.0;
                 sum += strain * strain;
                 count += 1.0;
@@ -83,6 +94,25 @@ impl Chart {
     pub fn corners(&self, carrier: &Carrier, t: usize) -> [DVec2; 3] {
         carrier.triangles[t].map(|v| self.uv[v as usize])
     }
+
+    /// Where a carrier point is in the plane.
+    pub fn at(&self, carrier: &Carrier, p: &SurfacePoint) -> DVec2 {
+        let corners = self.corners(carrier, p.triangle as usize);
+        corners[0] * p.bary[0] + corners[1] * p.bary[1] + corners[2] * p.bary[2]
+    }
+
+    /// Where a point of a loop is in the plane.
+    pub fn on_loop(&self, surface: &Surface, c: &ChainPoint) -> DVec2 {
+        let chain = &surface.loops[c.chain as usize];
+        let (k, fraction) = chain.locate(c.s);
+        let next = chain.vertices[(k + 1) % chain.vertices.len()];
+        self.uv[chain.vertices[k] as usize].lerp(self.uv[next as usize], fraction)
+    }
+}
+
+/// Scale of a triangle.
+fn scale(surface: &Surface, t: usize) -> f64 {
+    surface.scale_at(&SurfacePoint { triangle: t as u32, bary: [1.0 / 3.0; 3] })
 }
 
 fn is_connected(carrier: &Carrier) -> bool {
@@ -134,17 +164,23 @@ fn tutte(carrier: &Carrier, loops: &[Chain]) -> Vec<DVec2> {
         let hub = (n + h) as u32;
         entries.extend(chain.vertices.iter().flat_map(|&v| [(v, hub, 1.0), (hub, v, 1.0)]));
     }
-    let mut laplacian = Laplacian::new(n + hubs, entries);
+    let mut fixed = vec![false; n + hubs];
     let mut uv = vec![DVec2::ZERO; n + hubs];
     let chain = &loops[outer];
     let radius = chain.length() / std::f64::consts::TAU;
     for (&v, &s) in chain.vertices.iter().zip(&chain.arc) {
         let angle = s / radius;
         uv[v as usize] = DVec2::new(cos(angle), sin(angle)) * radius;
-        laplacian.fixed[v as usize] = true;
+        fixed[v as usize] = true;
     }
-    let right = vec![DVec2::ZERO; n + hubs];
-    laplacian.solve(&right, &mut uv, 2000);
+    let mut right = vec![DVec2::ZERO; n + hubs];
+    for &(i, j, w) in &entries {
+        let known = if fixed[i as usize] { i } else { j };
+        if fixed[known as usize] {
+            right[i as usize] += uv[known as usize] * w;
+        }
+    }
+    solve(&laplacian(n + hubs, &entries, &fixed), &right, &mut uv, 1e-7);
     uv.truncate(n);
     uv
 }
@@ -152,18 +188,21 @@ fn tutte(carrier: &Carrier, loops: &[Chain]) -> Vec<DVec2> {
 /// A triangle laid flat: edge vectors k -> k + 1 in its own plane, and their cotangent weights.
 type Flat = [(DVec2, f64); 3];
 
-fn as_rigid_as_possible(carrier: &Carrier, mut uv: Vec<DVec2>, steps: usize) -> Vec<DVec2> {
-    let flat: Vec<Flat> =
-        (0..carrier.triangles.len()).map(|t| lay_flat(carrier.corners(t as u32))).collect();
+fn as_rigid_as_possible(surface: &Surface, mut uv: Vec<DVec2>, steps: usize) -> Vec<DVec2> {
+    let carrier = &surface.carrier;
+    let flat: Vec<Flat> = (0..carrier.triangles.len())
+        .map(|t| lay_flat(carrier.corners(t as u32), scale(surface, t)))
+        .collect();
     let entries = carrier.triangles.iter().zip(&flat).flat_map(|(corners, edges)| {
         (0..3).flat_map(move |k| {
             let (i, j, w) = (corners[k], corners[(k + 1) % 3], edges[k].1);
             [(i, j, w), (j, i, w)]
         })
     });
-    let laplacian = Laplacian::new(uv.len(), entries.collect());
+    let laplacian = laplacian(uv.len(), &entries.collect::<Vec<_>>(), &[]);
+    let mut right = vec![DVec2::ZERO; uv.len()];
     for _ in 0..steps {
-        let mut right = vec![DVec2::ZERO; uv.len()];
+        right.fill(DVec2::ZERO);
         for (corners, edges) in carrier.triangles.iter().zip(&flat) {
             let mut sum = DMat2::ZERO;
             for k in 0..3 {
@@ -181,59 +220,70 @@ fn as_rigid_as_possible(carrier: &Carrier, mut uv: Vec<DVec2>, steps: usize) -> 
                 right[corners[k] as usize] -= f;
             }
         }
-        laplacian.solve(&right, &mut uv, SOLVER_STEPS);
+        if solve(&laplacian, &right, &mut uv, ACCURACY) < SETTLED {
+            break;
+        }
     }
     uv
 }
 
-fn lay_flat(p: [DVec3; 3]) -> Flat {
+fn lay_flat(p: [DVec3; 3], scale: f64) -> Flat {
     let x = (p[1] - p[0]).normalize_or_zero();
     let y = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero().cross(x);
     [0, 1, 2].map(|k| {
         let (a, b, c) = (p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
         let cot = (a - c).dot(b - c) / (a - c).cross(b - c).length().max(f64::MIN_POSITIVE);
         let w = (0.5 * cot).clamp(LEAST_WEIGHT, 1.0 / LEAST_WEIGHT);
-        (DVec2::new((b - a).dot(x), (b - a).dot(y)), w)
+        (DVec2::new((b - a).dot(x), (b - a).dot(y)) / scale, w)
     })
 }
 
-/// A weighted graph Laplacian; fixed entries keep their values.
-struct Laplacian {
-    rows: Vec<Vec<(u32, f64)>>,
-    diagonal: Vec<f64>,
-    fixed: Vec<bool>,
-}
-
-impl Laplacian {
-    fn new(n: usize, mut entries: Vec<(u32, u32, f64)>) -> Laplacian {
-        entries.sort_by_key(|e| (e.0, e.1));
-        let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); n];
-        let mut diagonal = vec![0.0; n];
-        for (i, j, w) in entries {
-            diagonal[i as usize] += w;
-            match rows[i as usize].last_mut() {
-                Some(last) if last.0 == j => last.1 += w,
-                _ => rows[i as usize].push((j, w)),
+/// The Laplacian of a weighted graph, given by (i, j, weight) both ways round; rows of `fixed` vertices stand
+/// for themselves.
+fn laplacian(n: usize, entries: &[(u32, u32, f64)], fixed: &[bool]) -> Multigrid {
+    let is_fixed = |v: u32| fixed.get(v as usize).is_some_and(|&f| f);
+    let mut starts = vec![0; n + 1];
+    for &(i, ..) in entries {
+        starts[i as usize + 1] += 1;
+    }
+    for i in 0..n {
+        starts[i + 1] += starts[i];
+    }
+    let mut order = vec![0; entries.len()];
+    let mut next = starts.clone();
+    for (e, &(i, ..)) in entries.iter().enumerate() {
+        order[next[i as usize]] = e;
+        next[i as usize] += 1;
+    }
+    let mut matrix = Sparse::new();
+    let mut row = Row::new(n);
+    for i in 0..n {
+        row.add(&mut matrix, i as u32, 0.0);
+        for &e in &order[starts[i]..starts[i + 1]] {
+            let (_, j, w) = entries[e];
+            row.add(&mut matrix, i as u32, w);
+            if !is_fixed(i as u32) && !is_fixed(j) {
+                row.add(&mut matrix, j, -w);
             }
         }
-        Laplacian { rows, diagonal, fixed: vec![false; n] }
+        matrix.end_row();
     }
+    Multigrid::new(matrix)
+}
 
-    fn apply(&self, x: &[DVec2]) -> Vec<DVec2> {
-        let row = |i: usize| {
-            let off: DVec2 = self.rows[i].iter().map(|&(j, w)| x[j as usize] * w).sum();
-            if self.fixed[i] { DVec2::ZERO } else { x[i] * self.diagonal[i] - off }
-        };
-        (0..x.len()).map(row).collect()
+/// Improve `x` on L x = right until the residual has fallen to `accuracy` of its first norm; gives that first
+/// norm over the norm of the right side.
+fn solve(laplacian: &Multigrid, right: &[DVec2], x: &mut [DVec2], accuracy: f64) -> f64 {
+    let mut residual = vec![DVec2::ZERO; x.len()];
+    laplacian.apply(x, &mut residual);
+    for (r, b) in residual.iter_mut().zip(right) {
+        *r = *b - *r;
     }
-
-    /// At most `steps` conjugate-gradient steps on L x = right, both coordinates at once, from `x`.
-    fn solve(&self, right: &[DVec2], x: &mut [DVec2], steps: usize) {
-        let residual: Vec<DVec2> = right.iter().zip(self.apply(x)).map(|(b, a)| *b - a).collect();
-        // Against the right side too: a good start is at rounding level already.
-        let whole: f64 = right.iter().zip(&self.diagonal).map(|(v, d)| v.dot(*v / *d)).sum();
-        let enough = |first: f64| 1e-12 * whole.max(first);
-        let apply = |v: &[DVec2]| self.apply(v);
-        conjugate_gradients(x, residual, &self.diagonal, apply, DVec2::dot, enough, steps);
-    }
+    let share =
+        (product(&residual, &residual) / product(right, right).max(f64::MIN_POSITIVE)).sqrt();
+    let apply = |v: &[DVec2], y: &mut [DVec2]| laplacian.apply(v, y);
+    let cycle = |v: &[DVec2], y: &mut [DVec2]| laplacian.cycle(v, y);
+    let enough = |first: f64| first * accuracy * accuracy;
+    conjugate_gradients(x, residual, apply, cycle, enough, SOLVER_STEPS);
+    share
 }

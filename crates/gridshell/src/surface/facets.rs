@@ -19,6 +19,8 @@ impl Surface {
             loops,
             shapes: Vec::new(),
             curves: Vec::new(),
+            scale: Vec::new(),
+            direction: Vec::new(),
             area,
         }
     }

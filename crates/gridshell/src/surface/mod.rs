@@ -12,9 +12,11 @@ pub mod carrier;
 pub mod chain;
 pub mod chart;
 pub mod curve;
+pub mod direction;
 mod ear;
 pub mod facets;
 mod fill;
+pub mod grading;
 pub mod locate;
 pub mod model;
 pub mod nurbs;
@@ -22,6 +24,7 @@ mod orient;
 mod polygon;
 pub mod project;
 mod refine;
+pub mod ruler;
 mod sample;
 mod seam;
 pub mod shape;
@@ -37,6 +40,7 @@ pub use chain::{Chain, ChainPoint};
 pub use curve::Curve;
 pub use locate::Locator;
 pub use model::{Model, PolygonMesh, Sampling};
+pub use ruler::Ruler;
 pub use shape::Shape;
 pub use tessellate::tessellate;
 
@@ -54,6 +58,11 @@ pub struct Surface {
     pub shapes: Vec<Shape>,
     /// Exact edge curves, indexed by the chains' segments; empty where the input was a mesh.
     pub curves: Vec<Curve>,
+    /// Wanted length at each carrier vertex over the mean one, l0; empty where it is the same everywhere.
+    pub scale: Vec<f64>,
+    /// Wanted direction of members at each carrier vertex, of unit length in the tangent plane (zero where there
+    /// is none); empty where any will do.
+    pub direction: Vec<DVec3>,
     /// Area in square metres, integrated over the exact patches.
     pub area: f64,
 }

@@ -38,6 +38,8 @@ impl PolygonMesh {
             loops,
             shapes: Vec::new(),
             curves: Vec::new(),
+            scale: Vec::new(),
+            direction: Vec::new(),
             area,
         })
     }

@@ -101,6 +101,8 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
         loops,
         shapes: brep.faces.iter().map(|f| f.shape.clone()).collect(),
         curves,
+        scale: Vec::new(),
+        direction: Vec::new(),
         area: pieces.iter().map(|p| p.area).sum(),
     })
 }

@@ -12,3 +12,4 @@ mod sheets;
 mod stopping;
 mod threads;
 mod topology;
+mod wishes;

@@ -98,7 +98,7 @@ fn the_net_evens_the_lengths_and_leaves_connectivity_alone() {
         let recipe = paper(LENGTH);
         let before = triangulated(&surface, &recipe);
         let mut after = before.clone();
-        let report = relax::relax(&surface, &mut after, &recipe.relax, &Job::default());
+        let report = relax::relax(&surface, &mut after, &recipe, &Job::default());
         assert!(report.converged, "{name}: {report:?}");
         let cv = |g: &Grid| quality(g, &surface).edge_length.cv;
         assert!(cv(&after) < cv(&before), "{name}: {} to {}", cv(&before), cv(&after));

@@ -15,9 +15,10 @@ const ARRIVED: f64 = 0.1;
 
 /// Number of members whose ends are further apart along the surface than straight by more than
 /// `edge_length`.
-pub(super) fn count(grid: &Grid, surface: &Surface, edge_length: f64) -> usize {
+pub fn count(grid: &Grid, surface: &Surface, edge_length: f64) -> usize {
     let points: Vec<_> = grid.places.iter().map(|p| p.surface_point(surface)).collect();
     let bridges = |a: u32, b: u32| {
+        let edge_length = edge_length * grid.scale(surface, a, b);
         let (a, b) = (&points[a as usize], &points[b as usize]);
         !walk_arrives(surface, a, b, edge_length) && !flood_arrives(surface, a, b, edge_length)
     };

@@ -1,7 +1,8 @@
-//! Member lengths (Eq. 23 and 24), over all members and over those that touch the boundary.
+//! Member lengths (Eq. 23 and 24; where lengths are to vary, over the scale wanted there), over all members and over those that touch the boundary.
 
 use super::EdgeLength;
 use crate::grid::Grid;
+use crate::surface::Surface;
 
 pub(super) struct Members {
     pub count: usize,
@@ -9,12 +10,12 @@ pub(super) struct Members {
     pub border_cv: f64,
 }
 
-pub(super) fn measure(grid: &Grid) -> Members {
+pub(super) fn measure(grid: &Grid, surface: &Surface) -> Members {
     let mesh = &grid.mesh;
     let mut lengths = Vec::with_capacity(mesh.edge_count());
     let mut border = Vec::new();
     for (a, b) in mesh.edges() {
-        let l = grid.xyz[a as usize].distance(grid.xyz[b as usize]);
+        let l = grid.scaled_length(surface, a, b);
         lengths.push(l);
         if mesh.is_boundary(a) || mesh.is_boundary(b) {
             border.push(l);

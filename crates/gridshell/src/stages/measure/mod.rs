@@ -5,13 +5,15 @@
 //! Everything here is one pass over nodes, members or panels.
 
 mod bridging;
+mod direction;
 mod floors;
 mod fluency;
 mod members;
 mod panels;
 mod quality;
 
-pub use quality::{Border, Degrees, EdgeLength, Irregular, IrregularNode, Quality, Shape};
+pub use bridging::count as bridging_members;
+pub use quality::{Border, Degrees, EdgeLength, Irregular, IrregularNode, Lengths, Quality, Shape};
 
 use crate::degree::{REGULAR, adjusted_degree, boundary_angle, virtual_degree, weight};
 use crate::grid::{Grid, Place};
@@ -54,7 +56,7 @@ pub fn compare(
         grid.places.iter().map(|p| surface.carrier.normal(&p.surface_point(surface))).collect();
     let lambda = options.lambda;
     let nodes = count_nodes(grid, lambda);
-    let members = members::measure(grid);
+    let members = members::measure(grid, surface);
     let panels = panels::measure(grid, &normals);
     let delta = fluency::mean_delta(grid);
     let mu = (nodes.residual / nodes.weighted).sqrt();
@@ -80,6 +82,8 @@ pub fn compare(
         rho,
         fluency: (disorder > PERFECT).then(|| 1.0 / disorder),
         area_ratio: panels.area / surface.area,
+        lengths: if surface.scale.is_empty() { Lengths::AsBuilt } else { Lengths::OverLocal },
+        direction_deviation_deg: direction::deviation_deg(grid, surface),
         surface_deviation: 0.0,
         boundary_deviation: 0.0,
         min_angle_deg: panels.min_angle.to_degrees(),

@@ -3,6 +3,7 @@
 use super::Shape;
 use crate::grid::Grid;
 use crate::math::trig;
+use crate::merit;
 use glam::DVec3;
 
 pub(super) struct Panels {
@@ -29,7 +30,7 @@ pub(super) fn measure(grid: &Grid, normals: &[DVec3]) -> Panels {
     let mut at_border = 0;
     for t in grid.mesh.triangles() {
         let p = t.map(|v| grid.xyz[v as usize]);
-        let q = shape_index(p);
+        let q = merit::shape(p);
         panels.count += 1;
         panels.area += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).length();
         panels.shape.mean += q;
@@ -50,18 +51,6 @@ pub(super) fn measure(grid: &Grid, normals: &[DVec3]) -> Panels {
     panels
 }
 
-/// q of Eq. 25; 0 for a panel without extent.
-fn shape_index(p: [DVec3; 3]) -> f64 {
-    let sides = (p[1] - p[0]).length_squared()
-        + (p[2] - p[1]).length_squared()
-        + (p[0] - p[2]).length_squared();
-    if sides == 0.0 {
-        return 0.0;
-    }
-    // Twice the area, hence 2 sqrt(3) for the 4 sqrt(3) of the paper.
-    2.0 * 3f64.sqrt() * (p[1] - p[0]).cross(p[2] - p[0]).length() / sides
-}
-
 /// Whether the panel faces against the surface, or lies folded over a neighbour though the surface does
 /// not. Of two such neighbours only the one that agrees less with the surface counts.
 fn is_folded(grid: &Grid, normals: &[DVec3], t: [u32; 3]) -> bool {
@@ -75,8 +64,9 @@ fn is_folded(grid: &Grid, normals: &[DVec3], t: [u32; 3]) -> bool {
         let Some(c) = grid.mesh.right(a, b) else { return false };
         let other = panel_normal(grid, [b, a, c]);
         let other_surface = surface_normal(normals, [b, a, c]);
-        let folded = panel.dot(other) < 0.0 && surface.dot(other_surface) > 0.0;
-        folded && agreement < other.dot(other_surface)
+        // Away from the shared edge: that may run along a crease, where the surface turns as well.
+        let turns = normals[t[(k + 2) % 3] as usize].dot(normals[c as usize]) <= 0.0;
+        panel.dot(other) < 0.0 && !turns && agreement < other.dot(other_surface)
     })
 }
 

@@ -20,6 +20,8 @@ pub struct Quality {
     pub euler_characteristic: i64,
     /// Member lengths.
     pub edge_length: EdgeLength,
+    /// What they and the two ratios below stand for.
+    pub lengths: Lengths,
     /// Panel shapes, q of Eq. 25: 1 is equilateral, 0 degenerate.
     pub shape: Shape,
     /// Nodes whose adjusted degree is not 6.
@@ -50,6 +52,9 @@ pub struct Quality {
     pub min_length_ratio: f64,
     /// Largest member length over the wanted one.
     pub max_length_ratio: f64,
+    /// Mean angle between the wanted direction and the nearest member at each node inside, degrees; None where no
+    /// direction is wanted.
+    pub direction_deviation_deg: Option<f64>,
     /// Members that leap from sheet to sheet: their ends are further apart along the surface than
     /// straight, by more than the wanted edge length.
     pub bridging_members: usize,
@@ -72,6 +77,16 @@ pub struct EdgeLength {
     pub variance: f64,
     /// Coefficient of variation r, Eq. 24.
     pub cv: f64,
+}
+
+/// What measured lengths stand for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Lengths {
+    /// Members as they are.
+    AsBuilt,
+    /// Members over what is wanted where they are, times the mean wanted length l0: lengths are to vary.
+    OverLocal,
 }
 
 /// Panel shape index q, Eq. 25.

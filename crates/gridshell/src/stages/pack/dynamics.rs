@@ -61,16 +61,21 @@ pub fn settle(
         let feet: Vec<SurfacePoint> =
             fixed.iter().copied().chain(bodies.iter().map(|b| b.foot)).collect();
         let xyz: Vec<DVec3> = feet.iter().map(|p| carrier.xyz(p)).collect();
+        let scales: Vec<f64> = feet.iter().map(|p| surface.scale_at(p)).collect();
+        let largest = scales.iter().copied().fold(0.0, f64::max);
         let strayed = |(p, q): (&DVec3, &DVec3)| p.distance(*q) > 0.5 * SKIN * edge_length;
         if listed_at.is_empty() || xyz.iter().zip(&listed_at).any(strayed) {
-            lists = neighbors(carrier, &feet, &xyz, diameter + SKIN * edge_length);
+            lists = neighbors(carrier, &feet, &xyz, diameter * largest + SKIN * edge_length);
             listed_at.clone_from(&xyz);
         }
         bodies.par_iter_mut().enumerate().for_each(|(i, body)| {
             let i = fixed.len() + i;
             let push = lists[i]
                 .iter()
-                .map(|&j| repulsion(xyz[i], xyz[j as usize], diameter, i))
+                .map(|&j| {
+                    let diameter = diameter * 0.5 * (scales[i] + scales[j as usize]);
+                    repulsion(xyz[i], xyz[j as usize], diameter, i)
+                })
                 .sum::<DVec3>();
             let force =
                 push * options.k_b + (xyz[i] - body.at) * options.k_c - body.velocity * options.k_f;

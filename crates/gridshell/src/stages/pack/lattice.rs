@@ -2,9 +2,11 @@
 
 use super::boundary::{member_count, pieces, place};
 use super::random::interior_count;
+use super::rim::Rim;
+use super::rows::{APART, HEIGHT, Rows, rows};
 use crate::bubbles::Bubbles;
 use crate::math::trig::{cos, sin};
-use crate::surface::{Surface, SurfacePoint, chart::Chart};
+use crate::surface::{ChainPoint, Surface, SurfacePoint, chart::Chart};
 use glam::{DMat2, DVec2};
 
 /// One lattice on the chart, and the boundary counts that go with it.
@@ -35,8 +37,15 @@ impl Lattice {
     }
 
     /// The bubbles of this lattice on `surface` for members of `length` metres, `k_n` times as many as Eq. 1
-    /// asks for.
-    pub fn bubbles(&self, surface: &Surface, chart: &Chart, length: f64, k_n: f64) -> Bubbles {
+    /// asks for, and with a row along the border wherever the lattice is off by at most `row_angle`, radians.
+    pub fn bubbles(
+        &self,
+        surface: &Surface,
+        chart: &Chart,
+        length: f64,
+        k_n: f64,
+        row_angle: Option<f64>,
+    ) -> Bubbles {
         let pieces = pieces(surface);
         let count = |(p, extra): (_, &i64)| {
             let n = member_count(p, length) as i64 + extra;
@@ -44,16 +53,41 @@ impl Lattice {
         };
         let counts: Vec<usize> = pieces.iter().zip(&self.extra).map(count).collect();
         let boundary = place(surface, &pieces, &counts, self.slide);
+        let rows = rows(surface, chart, &boundary, self.angle, length, row_angle);
+        let rim = self.rim(surface, chart, &boundary, &rows, length);
         let wanted = interior_count(surface, boundary.len(), length, k_n) as f64;
+        let wanted = wanted - rows.bubbles.len() as f64;
         let mut step = length;
-        let mut interior = self.interior(surface, chart, length, step);
+        let mut interior = self.interior(surface, chart, &rim, step);
         // The strip kept clear along the border and the chart's distortion cost nodes: draw the lattice
         // closer until it has as many as members of the wanted length ask for.
         for _ in 0..2 {
             step *= (interior.len() as f64 / wanted.max(1.0)).sqrt().clamp(0.9, 1.1);
-            interior = self.interior(surface, chart, length, step);
+            interior = self.interior(surface, chart, &rim, step);
         }
+        interior.extend(rows.bubbles);
         Bubbles { boundary, interior }
+    }
+
+    /// What the lattice keeps off: the border, or the row along it.
+    fn rim(
+        &self,
+        surface: &Surface,
+        chart: &Chart,
+        boundary: &[ChainPoint],
+        rows: &Rows,
+        length: f64,
+    ) -> Rim {
+        let clear = |chain: usize, s: f64| {
+            let first = boundary.partition_point(|b| (b.chain as usize) < chain);
+            let count = boundary[first..].partition_point(|b| b.chain as usize == chain);
+            let before = boundary[first..first + count].partition_point(|b| b.s <= s);
+            // Before the loop's first node is the member that begins at its last one.
+            let member = first + before.checked_sub(1).unwrap_or(count - 1);
+            let row = if rows.along[member] { HEIGHT } else { 0.0 };
+            (row + self.margin) * length
+        };
+        Rim::of_border_and(surface, chart, clear, &rows.uv, APART * length)
     }
 
     /// Lattice points `step` apart inside the chart and off its boundary, in order of triangles.
@@ -61,7 +95,7 @@ impl Lattice {
         &self,
         surface: &Surface,
         chart: &Chart,
-        length: f64,
+        rim: &Rim,
         step: f64,
     ) -> Vec<SurfacePoint> {
         let carrier = &surface.carrier;
@@ -70,7 +104,6 @@ impl Lattice {
         let b = a * 0.5 + a.perp() * (0.5 * 3f64.sqrt());
         let to_lattice = DMat2::from_cols(a, b).inverse();
         let shift = DVec2::from_array(self.offset);
-        let rim = Rim::new(surface, chart, self.margin * length);
         let mut found: Vec<([i64; 2], SurfacePoint)> = Vec::new();
         for t in 0..carrier.triangles.len() {
             let corners = chart.corners(carrier, t);
@@ -98,53 +131,8 @@ impl Lattice {
         // Twice the same lattice point near the same place on the surface: it lay on an edge.
         found.sort_by_key(|f| (f.0, f.1.triangle));
         found.dedup_by(|x, y| {
-            x.0 == y.0 && carrier.xyz(&x.1).distance(carrier.xyz(&y.1)) < 1e-3 * length
+            x.0 == y.0 && carrier.xyz(&x.1).distance(carrier.xyz(&y.1)) < 1e-3 * step
         });
         found.into_iter().map(|f| f.1).collect()
     }
-}
-
-/// The chart's boundary segments in square cells, to keep lattice points off them.
-struct Rim {
-    margin: f64,
-    /// (cell, segment), sorted.
-    cells: Vec<([i64; 2], [DVec2; 2])>,
-}
-
-impl Rim {
-    fn new(surface: &Surface, chart: &Chart, margin: f64) -> Rim {
-        let mut cells = Vec::new();
-        for chain in &surface.loops {
-            for k in 0..chain.vertices.len() {
-                let p = chart.uv[chain.vertices[k] as usize];
-                let q = chart.uv[chain.vertices[(k + 1) % chain.vertices.len()] as usize];
-                let (low, high) =
-                    (cell(p.min(q) - margin, margin), cell(p.max(q) + margin, margin));
-                for i in low[0]..=high[0] {
-                    for j in low[1]..=high[1] {
-                        cells.push(([i, j], [p, q]));
-                    }
-                }
-            }
-        }
-        cells.sort_by_key(|c| c.0);
-        Rim { margin, cells }
-    }
-
-    fn is_clear(&self, uv: DVec2) -> bool {
-        let at = cell(uv, self.margin);
-        let start = self.cells.partition_point(|c| c.0 < at);
-        let here = self.cells[start..].iter().take_while(|c| c.0 == at);
-        here.map(|c| distance(uv, c.1)).all(|d| d >= self.margin)
-    }
-}
-
-fn cell(p: DVec2, size: f64) -> [i64; 2] {
-    (p / size).floor().to_array().map(|x| x as i64)
-}
-
-fn distance(p: DVec2, [a, b]: [DVec2; 2]) -> f64 {
-    let d = b - a;
-    let t = ((p - a).dot(d) / d.length_squared()).clamp(0.0, 1.0);
-    p.distance(a + d * t)
 }

@@ -7,6 +7,8 @@ pub mod boundary;
 mod dynamics;
 pub mod lattice;
 mod random;
+mod rim;
+mod rows;
 
 pub use dynamics::{Report, settle};
 pub use random::{interior_count, scatter};

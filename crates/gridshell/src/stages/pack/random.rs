@@ -8,14 +8,14 @@ use glam::DVec3;
 pub fn interior_count(surface: &Surface, boundary: usize, edge_length: f64, k_n: f64) -> usize {
     let triangle = 3f64.sqrt() / 4.0 * edge_length * edge_length;
     let chi = surface.euler_characteristic() as f64;
-    let count = k_n * surface.area / (2.0 * triangle) - boundary as f64 / 2.0 + chi;
+    let count = k_n * surface.room() / (2.0 * triangle) - boundary as f64 / 2.0 + chi;
     count.round().max(0.0) as usize
 }
 
 /// Draws of a point that keeps off the border, at most: a strip may have no such place.
 const MOST_DRAWS: usize = 50;
 
-/// `count` random points, uniform over the carrier's area but for those that would fall within `clear` metres
+/// `count` random points, spread evenly (for members of the lengths wanted) over the carrier's area but for those that would fall within `clear` metres
 /// of a boundary bubble: pressed against the border, they would stay there between two of its bubbles.
 pub fn scatter(
     surface: &Surface,
@@ -28,7 +28,8 @@ pub fn scatter(
     let mut sums = Vec::with_capacity(carrier.triangles.len());
     let mut sum = 0.0;
     for t in 0..carrier.triangles.len() as u32 {
-        sum += carrier.triangle_area(t);
+        let scale = surface.scale_at(&SurfacePoint { triangle: t, bary: [1.0 / 3.0; 3] });
+        sum += carrier.triangle_area(t) / (scale * scale);
         sums.push(sum);
     }
     let rim: Vec<DVec3> =
@@ -44,6 +45,7 @@ pub fn scatter(
     };
     let near = |p: &SurfacePoint| {
         let xyz = carrier.xyz(p);
+        let clear = clear * surface.scale_at(p);
         rim.iter().any(|r| r.distance_squared(xyz) < clear * clear)
     };
     (0..count)

@@ -1,6 +1,8 @@
 //! Regularize (Section 5): change connectivity so that fewer nodes are irregular.
 
+mod local;
 mod paper;
+mod polish;
 mod search;
 mod state;
 
@@ -25,6 +27,21 @@ pub struct Report {
     pub refused: usize,
     /// No operation is left that the method would make.
     pub converged: bool,
+}
+
+impl Report {
+    /// This and another report of the same grid, one after the other.
+    #[must_use]
+    pub fn and(&self, next: &Report) -> Report {
+        Report {
+            flips: self.flips + next.flips,
+            collapses: self.collapses + next.collapses,
+            splits: self.splits + next.splits,
+            drifts: self.drifts + next.drifts,
+            refused: self.refused + next.refused,
+            converged: self.converged && next.converged,
+        }
+    }
 }
 
 impl std::fmt::Display for Report {
@@ -53,5 +70,20 @@ pub fn regularize(
             search::anneal(&mut state, &recipe.regularize, recipe.pack.k_n, seed, job)
         }
     };
+    (state.into_grid(), report)
+}
+
+/// Polish a regularized grid by its merit, in so many trials.
+pub fn polish(
+    surface: &Surface,
+    grid: Grid,
+    length: f64,
+    recipe: &Recipe,
+    trials: usize,
+    seed: u64,
+    job: &Job,
+) -> (Grid, Report) {
+    let mut state = State::new(surface, grid, length, recipe.measure.lambda);
+    let report = polish::polish(&mut state, recipe, trials, seed, job);
     (state.into_grid(), report)
 }

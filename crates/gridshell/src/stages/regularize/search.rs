@@ -88,12 +88,17 @@ struct Search<'a, 'b> {
 
 /// Pick an irregular vertex, an interior one three times in four, and an operation near it.
 pub fn draw(state: &State, rng: &mut fastrand::Rng) -> Option<(Operation, u32, u32)> {
-    let mesh = &state.grid.mesh;
     let irregular = state.irregular();
     let mut v = irregular[rng.usize(..irregular.len())];
-    if mesh.is_boundary(v) && rng.f64() < 0.6 {
+    if state.grid.mesh.is_boundary(v) && rng.f64() < 0.6 {
         v = irregular[rng.usize(..irregular.len())];
     }
+    draw_at(state, v, rng)
+}
+
+/// Pick an operation on an edge at `v` or opposite to it.
+pub fn draw_at(state: &State, v: u32, rng: &mut fastrand::Rng) -> Option<(Operation, u32, u32)> {
+    let mesh = &state.grid.mesh;
     let ring = mesh.ring(v);
     let i = rng.usize(..ring.len());
     let incident = (v, ring[i]);
@@ -108,7 +113,7 @@ pub fn draw(state: &State, rng: &mut fastrand::Rng) -> Option<(Operation, u32, u
 }
 
 /// Estimated change of R by an operation, boundary angles taken as they are. None when topology forbids it.
-fn estimate(state: &State, operation: Operation, a: u32, b: u32) -> Option<f64> {
+pub fn estimate(state: &State, operation: Operation, a: u32, b: u32) -> Option<f64> {
     let mesh = &state.grid.mesh;
     let apexes = [mesh.left(a, b), mesh.right(a, b)];
     let at_apexes =
@@ -143,7 +148,7 @@ impl<'a, 'b> Search<'a, 'b> {
         // As many as members of the wanted length leave room for (Eq. 1).
         let surface = state.surface;
         let panel = 3f64.sqrt() / 4.0 * state.length * state.length;
-        let target = k_n * surface.area / (2.0 * panel) + surface.euler_characteristic() as f64;
+        let target = k_n * surface.room() / (2.0 * panel) + surface.euler_characteristic() as f64;
         Search {
             state,
             rng,

@@ -4,6 +4,7 @@
 use crate::balance::arc_over_chord;
 use crate::degree::{boundary_angle, virtual_degree};
 use crate::grid::{Grid, Place};
+use crate::merit;
 use crate::mesh::{Refusal, Undo};
 use crate::surface::{ChainPoint, Surface};
 use glam::DVec3;
@@ -30,8 +31,9 @@ pub struct State<'a> {
     listed: Vec<u32>,
     undo: Undo,
     moved: Vec<(u32, Place, DVec3)>,
-    /// Marks of the last region gathered.
+    /// Marks of the last region gathered, and where each vertex stands in it.
     mark: Vec<u32>,
+    slot: Vec<u32>,
     stamp: u32,
 }
 
@@ -52,6 +54,7 @@ impl<'a> State<'a> {
             undo: Undo::default(),
             moved: Vec::new(),
             mark: vec![0; n],
+            slot: vec![0; n],
             stamp: 0,
         };
         state.refresh_all();
@@ -137,6 +140,7 @@ impl<'a> State<'a> {
             self.deviation.resize(n, 0);
             self.listed.resize(n, UNLISTED);
             self.mark.resize(n, 0);
+            self.slot.resize(n, 0);
         }
         self.set_place(m, place);
         Ok(m)
@@ -190,6 +194,7 @@ impl<'a> State<'a> {
         for &v in seeds {
             if self.grid.mesh.is_alive(v) && self.mark[v as usize] != self.stamp {
                 self.mark[v as usize] = self.stamp;
+                self.slot[v as usize] = region.len() as u32;
                 region.push(v);
             }
         }
@@ -200,6 +205,7 @@ impl<'a> State<'a> {
                 for &w in self.grid.mesh.ring(region[i]) {
                     if self.mark[w as usize] != self.stamp {
                         self.mark[w as usize] = self.stamp;
+                        self.slot[w as usize] = region.len() as u32;
                         region.push(w);
                     }
                 }
@@ -223,21 +229,26 @@ impl<'a> State<'a> {
         sum
     }
 
-    /// The chord from `v` to `w`, and its length (where the surface bends sharply: of the arc above it).
-    fn member(&self, v: u32, w: u32) -> (DVec3, f64) {
+    /// The chord from `v` to `w`, and its length (where the surface bends sharply: of the arc above it) over the
+    /// scale there.
+    pub fn member(&self, v: u32, w: u32) -> (DVec3, f64) {
         let chord = self.grid.xyz[w as usize] - self.grid.xyz[v as usize];
+        let length = chord.length() / self.scale(v, w);
         if !self.bends {
-            return (chord, chord.length());
+            return (chord, length);
         }
         let normal = |v: u32| self.grid.places[v as usize].normal(self.surface);
-        (chord, chord.length() * arc_over_chord(normal(v), normal(w)))
+        (chord, length * arc_over_chord(normal(v), normal(w)))
+    }
+
+    /// Wanted length from `v` to `w` over the mean one.
+    pub fn scale(&self, v: u32, w: u32) -> f64 {
+        self.grid.scale(self.surface, v, w)
     }
 
     /// Sweep over the vertices, moving each to where its members are nearest to the wanted length.
     pub fn relax(&mut self, region: &[u32], sweeps: usize) {
-        for &v in region {
-            self.moved.push((v, self.grid.places[v as usize], self.grid.xyz[v as usize]));
-        }
+        self.remember(region);
         let least = 1e-9 * self.length;
         for _ in 0..sweeps {
             for &v in region {
@@ -250,9 +261,11 @@ impl<'a> State<'a> {
                     })
                     .sum();
                 // The members of a regular node resist a move with half their number in either direction.
-                let mut step = pull * (2.0 / ring.len() as f64);
-                if step.length_squared() > 0.09 * self.length * self.length {
-                    step *= 0.3 * self.length / step.length();
+                let scale = self.scale(v, v);
+                let mut step = pull * (2.0 * scale / ring.len() as f64);
+                let reach = 0.3 * scale * self.length;
+                if step.length_squared() > reach * reach {
+                    step *= reach / step.length();
                 }
                 self.grid.slide(self.surface, v as usize, step);
             }
@@ -264,18 +277,36 @@ impl<'a> State<'a> {
         self.mark[v as usize] == self.stamp
     }
 
+    /// Where `v` stands in the region last gathered; None outside.
+    pub fn slot_in_region(&self, v: u32) -> Option<usize> {
+        self.in_region(v).then(|| self.slot[v as usize] as usize)
+    }
+
+    /// Whether the surface turns so much along this member that lines are not held straight across it.
+    pub fn is_sharp(&self, a: u32, b: u32) -> bool {
+        self.bends && self.grid.is_sharp(self.surface, a, b)
+    }
+
+    /// Keep the places of these vertices for a possible roll back.
+    pub fn remember(&mut self, region: &[u32]) {
+        for &v in region {
+            self.moved.push((v, self.grid.places[v as usize], self.grid.xyz[v as usize]));
+        }
+    }
+
+    /// Go on from another grid.
+    pub fn replace(&mut self, grid: Grid) {
+        *self = State::new(self.surface, grid, self.length, self.lambda);
+    }
+
     /// Whether a panel at one of these vertices is a sliver (shape below `least`) or turned over.
     pub fn has_bad_panel(&self, vertices: &[u32], least: f64) -> bool {
-        let xyz = &self.grid.xyz;
-        let carrier = &self.surface.carrier;
+        let grid = &self.grid;
         vertices.iter().any(|&v| {
-            let normal = carrier.normal(&self.grid.places[v as usize].surface_point(self.surface));
-            self.grid.mesh.fan(v).any(|(a, b)| {
-                let (p, q, r) = (xyz[v as usize], xyz[a as usize], xyz[b as usize]);
-                let area = (q - p).cross(r - p);
-                let sides = p.distance_squared(q) + q.distance_squared(r) + r.distance_squared(p);
-                let shape = 2.0 * 3f64.sqrt() * area.length() / sides;
-                shape < least || area.dot(normal) <= 0.0
+            grid.mesh.fan(v).any(|(a, b)| {
+                let t = [v, a, b];
+                merit::shape(t.map(|v| grid.xyz[v as usize])) < least
+                    || merit::is_turned(grid, self.surface, t)
             })
         })
     }
@@ -283,6 +314,11 @@ impl<'a> State<'a> {
     /// The vertices whose rings changed since the last commit.
     pub fn touched(&self) -> Few {
         self.undo.touched().collect()
+    }
+
+    /// Whether the edits since the last commit left connectivity as it was.
+    pub fn is_idle(&self) -> bool {
+        self.undo.is_idle(&self.grid.mesh)
     }
 
     /// Keep the changes since the last commit; adjusted degrees must have been refreshed.

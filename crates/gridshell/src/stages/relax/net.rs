@@ -30,12 +30,13 @@ pub fn net(surface: &Surface, grid: &mut Grid, options: &Relax, job: &Job) -> Re
     let mut velocity = vec![DVec3::ZERO; grid.xyz.len()];
     let mut report = Report::default();
     while report.steps < options.max_steps && !job.stopped() {
-        let slack = edges.iter().map(|&(a, b)| grid.length(a, b)).sum::<f64>() / edges.len() as f64;
+        let slack = edges.iter().map(|&(a, b)| grid.scaled_length(surface, a, b)).sum::<f64>()
+            / edges.len() as f64;
         let mut force = vec![DVec3::ZERO; grid.xyz.len()];
         for &(a, b) in &edges {
             let d = grid.xyz[b as usize] - grid.xyz[a as usize];
             let length = d.length();
-            let pull = d * (K_B * (length - slack) / length);
+            let pull = d * (K_B * (length - slack * grid.scale(surface, a, b)) / length);
             force[a as usize] += pull;
             force[b as usize] -= pull;
         }

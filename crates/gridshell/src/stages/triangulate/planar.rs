@@ -14,7 +14,7 @@ use glam::DVec2;
 /// the boundary polygons cross or leave some outside.
 pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Option<Grid> {
     let mut points: Vec<DVec2> =
-        bubbles.boundary.iter().map(|c| on_rim(surface, chart, c)).collect();
+        bubbles.boundary.iter().map(|c| chart.on_loop(surface, c)).collect();
     let mut rims = Vec::with_capacity(points.len());
     let mut first = 0;
     for same in bubbles.boundary.chunk_by(|a, b| a.chain == b.chain) {
@@ -22,10 +22,7 @@ pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Optio
         rims.extend((0..n).map(|k| [first + k, first + (k + 1) % n]));
         first += n;
     }
-    points.extend(bubbles.interior.iter().map(|p| {
-        let corners = chart.corners(&surface.carrier, p.triangle as usize);
-        corners[0] * p.bary[0] + corners[1] * p.bary[1] + corners[2] * p.bary[2]
-    }));
+    points.extend(bubbles.interior.iter().map(|p| chart.at(&surface.carrier, p)));
     let triangles = delaunay::triangles(&points, &rims).ok()?;
     let mut mesh = Mesh::from_triangles(points.len(), &triangles).ok()?;
     if mesh.euler_characteristic() != surface.euler_characteristic() {
@@ -46,11 +43,4 @@ pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Optio
     }
     let xyz = places.iter().map(|p| p.xyz(surface)).collect();
     Some(Grid { mesh, places, xyz })
-}
-
-fn on_rim(surface: &Surface, chart: &Chart, c: &ChainPoint) -> DVec2 {
-    let chain = &surface.loops[c.chain as usize];
-    let (k, fraction) = chain.locate(c.s);
-    let next = chain.vertices[(k + 1) % chain.vertices.len()];
-    chart.uv[chain.vertices[k] as usize].lerp(chart.uv[next as usize], fraction)
 }

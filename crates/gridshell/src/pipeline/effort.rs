@@ -1,0 +1,90 @@
+//! How much work a grid is worth: the recipe's counts are for grids of up to two thousand nodes, larger ones get
+//! fewer draws and candidates, so that the time per node stays within a factor of two from 2,000 to 100,000
+//! nodes.
+//!
+//! What many draws and candidates are for, hitting upon a lattice that fits all borders at once, pays less on
+//! large grids: their borders are long, every lattice fits some of it, and the average over it hardly differs
+//! from draw to draw. Their irregular nodes stand along the border, some tenths of the square root of the
+//! count, each with room about it: a few hundred trials for each do what thousands do in a small grid.
+
+use crate::recipe::Recipe;
+
+/// Up to so many nodes the recipe's counts hold in full.
+const FULL: f64 = 2000.0;
+/// Fewest draws and candidates of a large grid (or the recipe's, where it asks for fewer).
+const LEAST_DRAWS: usize = 16;
+const LEAST_CANDIDATES: usize = 5;
+/// Fewest trials of polishing per irregular node, in the last heat.
+const LEAST_POLISH: usize = 60;
+/// Fewest trials of the search per irregular node.
+const LEAST_TRIALS: usize = 400;
+
+/// Carrier edges over l0: fine enough for nodes to walk smoothly and boundaries to be followed.
+const CARRIER_EDGE: f64 = 0.5;
+/// The same in large grids, whose members are short against all that bends: what bends more sharply is sampled
+/// more finely by its chord error anyway.
+const COARSE_CARRIER_EDGE: f64 = 1.0;
+/// Above so many nodes carriers coarsen.
+const COARSENING: f64 = 5000.0;
+
+/// The recipe with its counts cut down to what a grid of about `nodes` nodes is worth.
+pub fn budgeted(recipe: &Recipe, nodes: f64) -> Recipe {
+    let share = (FULL / nodes).min(1.0);
+    let cut = |count: usize, share: f64, least: usize| {
+        let cut = (count as f64 * share).round() as usize;
+        cut.max(least.min(count))
+    };
+    let mut recipe = recipe.clone();
+    recipe.pack.draws = cut(recipe.pack.draws, share, LEAST_DRAWS);
+    let regularize = &mut recipe.regularize;
+    regularize.candidates = cut(regularize.candidates, share, LEAST_CANDIDATES);
+    let last = regularize.heats.last().map_or(1, |h| h[1]).max(1);
+    for [through, trials] in &mut regularize.heats {
+        *through = cut(*through, share, 1);
+        *trials = cut(*trials, share, LEAST_POLISH * *trials / last);
+    }
+    // From seconds for each candidate to milliseconds for each node, over less than one power of ten.
+    regularize.trials = cut(regularize.trials, share.powi(4), LEAST_TRIALS);
+    // All trials of one grid may take twice as long as all trials of the smallest full one, and then as the
+    // border grows.
+    let most = regularize.most_trials as f64 * (nodes / (20.0 * FULL)).sqrt().max(1.0);
+    regularize.most_trials = most as usize;
+    recipe
+}
+
+/// Longest carrier edges over l0 for a grid of about `nodes` nodes.
+pub fn carrier_edge(nodes: f64) -> f64 {
+    (CARRIER_EDGE * (nodes / COARSENING).sqrt()).clamp(CARRIER_EDGE, COARSE_CARRIER_EDGE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_grids_get_all_that_the_recipe_says() {
+        let recipe = Recipe::default();
+        assert_eq!(budgeted(&recipe, 60.0), recipe);
+        assert_eq!(budgeted(&recipe, FULL), recipe);
+        assert_eq!(carrier_edge(FULL), CARRIER_EDGE);
+    }
+
+    #[test]
+    fn no_grid_gets_more_candidates_than_the_recipe_says() {
+        let mut recipe = Recipe::default();
+        recipe.pack.draws = 1;
+        recipe.regularize.candidates = 1;
+        recipe.regularize.heats.clear();
+        recipe.regularize.trials = 0;
+        let budget = budgeted(&recipe, 1e5);
+        assert_eq!(budget.pack, recipe.pack);
+        assert_eq!(budget.regularize.candidates, 1);
+        assert_eq!(budget.regularize.trials, 0);
+    }
+
+    #[test]
+    fn work_per_node_never_grows() {
+        let draws = |n: f64| budgeted(&Recipe::default(), n).pack.draws as f64;
+        assert!(draws(2e3) >= draws(1e4) && draws(1e4) >= draws(1e5) && draws(1e5) >= 1.0);
+    }
+}

@@ -1,0 +1,71 @@
+//! The recipe's varying lengths and directions, laid on a surface.
+
+use crate::error::Result;
+use crate::recipe::{Direction, Recipe, Size};
+use crate::surface::{Model, Sampling, Surface, grading};
+use glam::DVec3;
+
+/// A carrier as fine as members of l0 ask for is made anew where members are to be shorter than this share of it.
+const SHORT: f64 = 0.8;
+/// But never finer than for this share.
+const SHORTEST: f64 = 0.2;
+
+/// The surface of `model` for members of `length` metres, with lengths and directions as the recipe wants them;
+/// `sampling` tells what suits members of a length.
+pub fn surface(
+    model: &Model,
+    recipe: &Recipe,
+    length: f64,
+    sampling: impl Fn(f64) -> Sampling,
+) -> Result<Surface> {
+    let mut surface = model.surface(&sampling(length))?;
+    grade(&mut surface, recipe, Some(length));
+    let least = surface.scale.iter().copied().fold(1.0, f64::min);
+    if least < SHORT {
+        surface = model.surface(&sampling(length * least.max(SHORTEST)))?;
+        grade(&mut surface, recipe, Some(length));
+    }
+    direct(&mut surface, &recipe.direction);
+    Ok(surface)
+}
+
+/// Have the lengths on `surface` vary as the recipe says, about `length` metres where that is known. Gives the mean
+/// length where the recipe itself says it: at points, without an edge length or a number of nodes beside them.
+pub fn grade(surface: &mut Surface, recipe: &Recipe, length: Option<f64>) -> Option<f64> {
+    let carrier = &surface.carrier;
+    let mut lengths = match &recipe.size {
+        Size::Uniform => return None,
+        Size::Curvature { range, strength } => grading::by_curvature(carrier, *range, *strength),
+        Size::Points { points } => grading::by_points(carrier, points),
+    };
+    let given = recipe.edge_length.is_some() || recipe.nodes.is_some();
+    if matches!(recipe.size, Size::Points { .. }) && !given {
+        grading::limit(carrier, &mut lengths);
+        let mean = length.unwrap_or_else(|| grading::mean_length(carrier, &lengths));
+        surface.grade(&lengths, mean);
+        return Some(mean);
+    }
+    if let Some(length) = length {
+        scale_to(surface, &mut lengths, length);
+        grading::limit(&surface.carrier, &mut lengths);
+    }
+    let mean = grading::mean_length(&surface.carrier, &lengths);
+    surface.grade(&lengths, mean);
+    None
+}
+
+fn scale_to(surface: &Surface, lengths: &mut [f64], mean: f64) {
+    let factor = mean / grading::mean_length(&surface.carrier, lengths);
+    for l in lengths {
+        *l *= factor;
+    }
+}
+
+fn direct(surface: &mut Surface, direction: &Direction) {
+    match direction {
+        Direction::Any => {}
+        Direction::Vector { xyz } => surface.direct(|_| DVec3::from_array(*xyz)),
+        Direction::Points { points } => surface.direct_by_points(points),
+        Direction::Boundary => surface.direct_along_boundary(),
+    }
+}

@@ -1,0 +1,262 @@
+//! Polish by merit: one edge operation near an irregular node, the surroundings brought into balance, kept if
+//! the merit of the whole grid says so.
+
+use super::Report;
+use super::local::{Aim, Local};
+use super::search::{Operation, draw_at};
+use super::state::{Few, State};
+use crate::balance::{self, balance};
+use crate::job::Job;
+use crate::math::trig::{exp, ln};
+use crate::merit::Sums;
+use crate::recipe::Recipe;
+use smallvec::SmallVec;
+
+/// Rings of nodes that move with an operation.
+const RINGS: usize = 3;
+/// Steps of balancing round an operation.
+const STEPS: usize = 3;
+/// Panels below this shape are refused.
+const LEAST_SHAPE: f64 = 0.55;
+/// Rounds, each begun with the whole grid in balance.
+const ROUNDS: usize = 6;
+/// Temperatures, first and last, as shares of the merit.
+const TEMPERATURE: [f64; 2] = [0.4, 0.05];
+/// What an operation may at best win by lengths and lines, as a share of the merit.
+const HOPE: f64 = 1.0;
+
+/// Polish `state` by so many trials per irregular node.
+pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job: &Job) -> Report {
+    let mut report = Report::default();
+    // Few irregular nodes are hard to lose: the border is where they go, so its size counts as well.
+    let places = state.irregular().len().max(state.grid.mesh.boundary_count() / 2);
+    let trials = trials.saturating_mul(places).min(recipe.regularize.most_polish);
+    let mut polish = Polish::new(state, recipe, seed);
+    for round in 0..ROUNDS {
+        polish.balance_all(3);
+        if round == 0 || polish.merit > polish.best.0 {
+            polish.best = (polish.merit, polish.state.grid.clone());
+        }
+        let mut made = 0;
+        for k in 0..20 * trials / ROUNDS {
+            if polish.state.irregular().is_empty() || made >= trials / ROUNDS {
+                break;
+            }
+            if k % 64 == 0 && job.stopped() {
+                return report;
+            }
+            let done = (round as f64 + made as f64 * ROUNDS as f64 / trials as f64) / ROUNDS as f64;
+            let [hot, cold] = TEMPERATURE;
+            polish.temperature = hot * exp(ln(cold / hot) * done);
+            made += usize::from(polish.trial(&mut report));
+        }
+    }
+    polish.balance_all(6);
+    let (merit, grid) = std::mem::replace(&mut polish.best, (0.0, polish.state.grid.clone()));
+    if merit > polish.merit {
+        polish.state.replace(grid);
+    }
+    report.converged = true;
+    report
+}
+
+struct Polish<'a, 'b> {
+    state: &'a mut State<'b>,
+    rng: fastrand::Rng,
+    local: Local,
+    straightness: f64,
+    border: f64,
+    total: Sums,
+    merit: f64,
+    temperature: f64,
+    unit: f64,
+    best: (f64, crate::grid::Grid),
+}
+
+impl<'a, 'b> Polish<'a, 'b> {
+    fn new(state: &'a mut State<'b>, recipe: &Recipe, seed: u64) -> Self {
+        Polish {
+            rng: fastrand::Rng::with_seed(seed),
+            local: Local::default(),
+            straightness: recipe.relax.straightness,
+            border: recipe.border_weight(),
+            total: Sums::default(),
+            merit: 0.0,
+            temperature: 0.0,
+            unit: 0.0,
+            best: (f64::NEG_INFINITY, state.grid.clone()),
+            state,
+        }
+    }
+
+    /// Bring the whole grid into balance and count everything anew.
+    fn balance_all(&mut self, steps: usize) {
+        let options = balance::Options {
+            straightness: self.straightness,
+            border: self.border,
+            settled: 1e-4,
+            max_steps: steps,
+            accuracy: 0.02,
+        };
+        balance(self.state.surface, &mut self.state.grid, &options, &Job::default());
+        self.state.refresh_all();
+        let state = &*self.state;
+        self.total = Sums::whole(&state.grid, state.surface, state.length, state.lambda);
+        self.merit = self.total.merit(state.lambda);
+        let more = Sums { residual: self.total.residual + 1.0 - state.lambda, ..self.total };
+        self.unit = self.merit - more.merit(state.lambda);
+    }
+
+    /// Try a few operations near an irregular node; whether they came as far as being balanced.
+    fn trial(&mut self, report: &mut Report) -> bool {
+        let bar = self.merit + self.unit * self.temperature * ln(self.rng.f64().max(1e-300));
+        let Some(plan) = self.plan() else { return false };
+        let hoped = Sums { residual: self.total.residual + plan.change, ..self.total };
+        if hoped.merit(self.state.lambda) + self.unit * HOPE < bar {
+            return false;
+        }
+        let kept = self.carry_out(&plan).filter(|(after, _)| after.merit(self.state.lambda) >= bar);
+        let Some((after, rim)) = kept else {
+            self.state.roll_back();
+            report.refused += 1;
+            return true;
+        };
+        self.state.refresh(&plan.touched);
+        self.state.refresh(&rim);
+        self.state.commit();
+        self.total = after;
+        self.merit = after.merit(self.state.lambda);
+        for step in &plan.steps {
+            match step.0 {
+                Operation::Flip => report.flips += 1,
+                Operation::Collapse => report.collapses += 1,
+                Operation::Split => report.splits += 1,
+            }
+        }
+        true
+    }
+
+    /// Draw one to three operations, each near the last, followed by every flip round them that lowers R.
+    fn plan(&mut self) -> Option<Plan> {
+        let mut plan = Plan::default();
+        let drawn = self.draw(&mut plan);
+        plan.touched = self.state.touched();
+        let idle = self.state.is_idle();
+        self.state.roll_back();
+        drawn.filter(|()| !idle).map(|()| plan)
+    }
+
+    fn draw(&mut self, plan: &mut Plan) -> Option<()> {
+        let irregular = self.state.irregular();
+        let mut v = irregular[self.rng.usize(..irregular.len())];
+        for _ in 0..[1, 1, 2, 2, 3][self.rng.usize(..5)] {
+            let (operation, a, b) = draw_at(self.state, v, &mut self.rng)?;
+            plan.make(self.state, operation, a, b)?;
+            let touched = self.state.touched();
+            let near = self.state.region(&touched, 1);
+            let odd: Few =
+                near.into_iter().filter(|&w| self.state.deviation[w as usize] != 0).collect();
+            if odd.is_empty() {
+                break;
+            }
+            v = odd[self.rng.usize(..odd.len())];
+        }
+        for _ in 0..MOST_FLIPS {
+            let touched = self.state.touched();
+            let near = self.state.region(&touched, 1);
+            let mesh = &self.state.grid.mesh;
+            let best = near
+                .iter()
+                .flat_map(|&v| mesh.ring(v).iter().map(move |&w| (v, w)))
+                .filter(|&(v, w)| v < w)
+                .filter_map(|(v, w)| Some((self.state.flip_change(v, w)?, v, w)))
+                .min_by(|x, y| x.0.total_cmp(&y.0));
+            match best {
+                Some((gain, v, w)) if gain < -1e-9 => {
+                    plan.make(self.state, Operation::Flip, v, w)?
+                }
+                _ => break,
+            }
+        }
+        Some(())
+    }
+
+    /// Make the planned operations and balance round them: the sums that they leave and the nodes round them,
+    /// or None where a panel is bad.
+    fn carry_out(&mut self, plan: &Plan) -> Option<(Sums, Few)> {
+        let state = &mut *self.state;
+        let before = state.region(&plan.touched, RINGS);
+        let mut sums_before = Sums::default();
+        // The nodes round the operations are known once they are made; those that they remove, before.
+        for pass in 0..2 {
+            for &(operation, a, b) in &plan.steps {
+                operation.apply(state, a, b).ok()?;
+            }
+            let rim = state.region(&plan.touched, RINGS);
+            if pass == 0 {
+                state.roll_back();
+                let mut all = rim;
+                all.extend_from_slice(&plan.touched);
+                all.extend_from_slice(&before);
+                let all = state.region(&all, 0);
+                sums_before = sums(state, &all);
+                continue;
+            }
+            let mut all = before.clone();
+            all.extend_from_slice(&rim);
+            let all = state.region(&all, 0);
+            let region = state.region(&plan.touched, RINGS - 1);
+            state.remember(&region);
+            let mean = self.total.members.mean() * state.length;
+            let aim = Aim { mean, straightness: self.straightness, border: self.border };
+            self.local.balance(state, &region, &rim, &aim, STEPS);
+            if state.has_bad_panel(&plan.touched_alive(state), LEAST_SHAPE) {
+                return None;
+            }
+            let all = state.region(&all, 0);
+            return Some((self.total - sums_before + sums(state, &all), all));
+        }
+        None
+    }
+}
+
+/// Operations drawn, and what they do to R.
+#[derive(Default)]
+struct Plan {
+    steps: SmallVec<[(Operation, u32, u32); 8]>,
+    change: f64,
+    touched: Few,
+}
+
+/// Flips by degree after the operations drawn, at most.
+const MOST_FLIPS: usize = 8;
+
+impl Plan {
+    /// Make an operation and note its change of R.
+    fn make(&mut self, state: &mut State, operation: Operation, a: u32, b: u32) -> Option<()> {
+        let mut region = state.region(&[a, b], 1);
+        let before = residual(state, &region);
+        region.push(operation.apply(state, a, b).ok()?);
+        state.refresh(&region);
+        let region = state.region(&region, 0);
+        self.change += residual(state, &region) - before;
+        self.steps.push((operation, a, b));
+        Some(())
+    }
+
+    fn touched_alive(&self, state: &State) -> Few {
+        self.touched.iter().copied().filter(|&v| state.grid.mesh.is_alive(v)).collect()
+    }
+}
+
+fn residual(state: &State, region: &[u32]) -> f64 {
+    let one = |&v: &u32| state.gamma(v) * f64::from(state.deviation[v as usize].pow(2));
+    region.iter().map(one).sum()
+}
+
+/// The sums over the region last gathered.
+fn sums(state: &State, region: &[u32]) -> Sums {
+    Sums::over(&state.grid, state.surface, state.length, state.lambda, region, |v| {
+        state.in_region(v)
+    })
+}
