@@ -1,13 +1,16 @@
-//! The project's own chores: `cargo xtask lint | test | cases | picture`.
+//! The project's own chores: `cargo xtask lint | test | cases | bench | picture | pictures`.
 //!
-//! Everything here builds in the dev profile, so that the dependencies are compiled once; only `cases` and
-//! `picture` run the release build, because they tell times or take theirs.
+//! Everything here builds in the dev profile, so that the dependencies are compiled once; only the chores that
+//! lay grids run the release build of the command, because they tell times or take theirs.
 
 mod build;
 mod cases;
 mod check;
+mod laid;
 mod picture;
+mod quality;
 
+use quality::Scope;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
@@ -15,6 +18,11 @@ usage: cargo xtask CHORE
   lint                    format, clippy and rustdoc, warnings denied
   test                    lint, then every test, the documentation's included
   cases FOLDER [NAME]...  a grid on every case in FOLDER's README.md table (or the named ones), as a table
+  bench quality [--cases FOLDER] [--quick] [NAME]...
+                          the figures of all grids against their bars, into docs/quality.md unless only
+                          some are named; --cases: on STEP files, --quick: one seed
+  pictures [--cases FOLDER] [NAME]...
+                          a plan and a perspective of each of these grids, into docs/gallery
   picture SURFACE FILE    a grid on SURFACE seen from above, as a PNG";
 
 fn main() -> ExitCode {
@@ -24,7 +32,9 @@ fn main() -> ExitCode {
         ["lint"] => check::lint(),
         ["test"] => check::lint().and_then(|()| check::test()),
         ["cases", folder, names @ ..] => cases::run(folder.as_ref(), names),
-        ["picture", surface, file] => picture::draw(surface, file.as_ref()),
+        ["picture", surface, file] => picture::plan(surface, file.as_ref()),
+        ["bench", "quality", rest @ ..] => Scope::parse(rest).and_then(|s| quality::bench(&s)),
+        ["pictures", rest @ ..] => Scope::parse(rest).and_then(|s| quality::pictures(&s)),
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::from(2);

@@ -17,8 +17,8 @@ const REACH: f64 = 1.2;
 pub(super) fn brep() -> Brep {
     let mut sketch = Sketch::new("sphere");
     let rim = equator(&mut sketch);
-    sketch.face(half(DVec3::Y, DVec3::Z), vec![vec![along(rim)]]);
-    sketch.face(half(-DVec3::Y, -DVec3::Z), vec![vec![against(rim)]]);
+    sketch.face(half(DVec3::ZERO, RADIUS, DVec3::Y, DVec3::Z), vec![vec![along(rim)]]);
+    sketch.face(half(DVec3::ZERO, RADIUS, -DVec3::Y, -DVec3::Z), vec![vec![against(rim)]]);
     sketch.finish()
 }
 
@@ -29,7 +29,7 @@ pub(super) fn equator(sketch: &mut Sketch) -> u32 {
 }
 
 /// The half sphere whose middle points to `up`; `side` is the direction of v there, x that of u.
-pub(super) fn half(side: DVec3, up: DVec3) -> Shape {
+pub(super) fn half(center: DVec3, radius: f64, side: DVec3, up: DVec3) -> Shape {
     let knots = vec![-REACH, -REACH, -REACH, 0.0, REACH, REACH, REACH];
     // B-spline coefficients of t and of t^2; the knot at 0 keeps all weights positive.
     let linear = [-REACH, -REACH / 2.0, REACH / 2.0, REACH];
@@ -41,7 +41,7 @@ pub(super) fn half(side: DVec3, up: DVec3) -> Shape {
             let top = DVec3::X * (2.0 * linear[i])
                 + side * (2.0 * linear[j])
                 + up * (1.0 - square[i] - square[j]);
-            points.push(top * (RADIUS / weight));
+            points.push(center + top * (radius / weight));
             weights.push(weight);
         }
     }
