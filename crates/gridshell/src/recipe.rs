@@ -301,10 +301,10 @@ impl Default for Regularize {
             max_rounds: 200,
             node_range: 0.1,
             trials: 2000,
-            most_trials: 240_000,
+            most_trials: 60_000,
             candidates: 16,
-            heats: vec![[16, 40], [5, 120], [2, 300]],
-            most_polish: 30_000,
+            heats: vec![[12, 30], [4, 100], [2, 250]],
+            most_polish: 20_000,
             residual_weight: 0.6,
             temperature: [0.15, 0.03],
         }

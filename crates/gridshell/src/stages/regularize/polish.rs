@@ -22,6 +22,8 @@ const LEAST_SHAPE: f64 = 0.55;
 const ROUNDS: usize = 6;
 /// Temperatures, first and last, as shares of the merit.
 const TEMPERATURE: [f64; 2] = [0.4, 0.05];
+/// Irregular nodes that trials are made for at least.
+const LEAST_PLACES: usize = 40;
 /// What an operation may at best win by lengths and lines, as a share of the merit.
 const HOPE: f64 = 1.0;
 
@@ -29,7 +31,8 @@ const HOPE: f64 = 1.0;
 pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job: &Job) -> Report {
     let mut report = Report::default();
     // Few irregular nodes are hard to lose: the border is where they go, so its size counts as well.
-    let places = state.irregular().len().max(state.grid.mesh.boundary_count() / 2);
+    let places =
+        state.irregular().len().max(state.grid.mesh.boundary_count() / 2).max(LEAST_PLACES);
     let trials = trials.saturating_mul(places).min(recipe.regularize.most_polish);
     let mut polish = Polish::new(state, recipe, seed);
     for round in 0..ROUNDS {
