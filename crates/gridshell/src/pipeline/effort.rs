@@ -11,6 +11,9 @@ use crate::recipe::{Recipe, RegularizeMethod};
 
 /// Up to so many nodes the recipe's counts hold in full.
 const FULL: f64 = 2000.0;
+/// Below so many nodes there are more candidates, by this factor.
+const SMALL: f64 = 500.0;
+const MORE: f64 = 2.0;
 /// Fewest draws and candidates of a large grid (or the recipe's, where it asks for fewer).
 const LEAST_DRAWS: usize = 16;
 const LEAST_CANDIDATES: usize = 5;
@@ -42,13 +45,15 @@ pub fn budgeted(recipe: &Recipe, nodes: f64) -> Recipe {
         recipe.pack.max_steps = cut(recipe.pack.max_steps, share, LEAST_STEPS);
     }
     let regularize = &mut recipe.regularize;
+    // Small grids are cheap, and each of their irregular nodes counts: more candidates.
+    let share = if nodes < SMALL { share * MORE } else { share };
     regularize.candidates = cut(regularize.candidates, share, LEAST_CANDIDATES);
     let last = regularize.heats.last().map_or(1, |h| h[1]).max(1);
     for [through, trials] in &mut regularize.heats {
         *through = cut(*through, share, 1);
-        *trials = cut(*trials, share, LEAST_POLISH * *trials / last);
+        *trials = cut(*trials, share.min(1.0), LEAST_POLISH * *trials / last);
     }
-    regularize.trials = cut(regularize.trials, share * share, LEAST_TRIALS);
+    regularize.trials = cut(regularize.trials, (share * share).min(1.0), LEAST_TRIALS);
     // All trials of one grid may take twice as long as all trials of the smallest full one, and then as the
     // border grows.
     let most = regularize.most_trials as f64 * (nodes / (20.0 * FULL)).sqrt().max(1.0);
@@ -68,8 +73,9 @@ mod tests {
     #[test]
     fn small_grids_get_all_that_the_recipe_says() {
         let recipe = Recipe::default();
-        assert_eq!(budgeted(&recipe, 60.0), recipe);
+        assert_eq!(budgeted(&recipe, SMALL), recipe);
         assert_eq!(budgeted(&recipe, FULL), recipe);
+        assert!(budgeted(&recipe, 60.0).regularize.candidates > recipe.regularize.candidates);
         assert_eq!(carrier_edge(FULL), CARRIER_EDGE);
     }
 

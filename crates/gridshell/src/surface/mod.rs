@@ -10,6 +10,7 @@ pub mod builtin;
 mod cap;
 pub mod carrier;
 pub mod chain;
+pub mod bends;
 pub mod chart;
 pub mod curve;
 mod cut;
