@@ -51,6 +51,10 @@ pub struct Generate {
     /// the longest stretch of the boundary.
     #[arg(long, value_name = "x,y,z|FILE|boundary", allow_hyphen_values = true)]
     pub direction: Option<String>,
+    /// Symmetry of the surface that the grid is to have too: `auto` for the largest that the surface has, mirror planes
+    /// square to `x`, `y` or both (`xy`), or a number of turns about a vertical axis.
+    #[arg(long, value_name = "auto|x|y|xy|N")]
+    pub symmetry: Option<String>,
     /// What the border is worth against the lines inside: 0 (one lattice, cut off) to 1 (rows along every border).
     #[arg(long, value_name = "0..1", allow_negative_numbers = true)]
     pub border: Option<f64>,

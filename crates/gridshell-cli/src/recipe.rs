@@ -49,6 +49,9 @@ pub fn from_args(args: &Generate) -> Result<Recipe, Failure> {
             (file, None) => Direction::Points { points: io::read_directions(Path::new(file))? },
         };
     }
+    if let Some(symmetry) = &args.symmetry {
+        recipe.symmetry = symmetry.parse()?;
+    }
     if let Some(border) = args.border {
         recipe.border = border;
     }

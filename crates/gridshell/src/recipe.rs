@@ -18,6 +18,8 @@ pub struct Recipe {
     pub size: Size,
     /// Direction that one family of lines is to follow where the shape allows.
     pub direction: Direction,
+    /// Symmetry of the surface that the grid is to have too.
+    pub symmetry: Symmetry,
     /// Seed of every random choice.
     pub seed: u64,
     /// Boundary vertices where the boundary turns by more than this are corners (fixed nodes), degrees.
@@ -152,6 +154,84 @@ fn coordinates(name: &str, values: &[f64]) -> Result<()> {
     values.iter().try_for_each(|&x| within(&format!("a number of {name}"), x, -1e12, 1e12))
 }
 
+/// A symmetry that a grid is to have; written `none`, `auto`, `x`, `y`, `xy`, or a number of turns. Axes and planes are
+/// vertical and go through where the surface has them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "String")]
+pub enum Symmetry {
+    /// None.
+    None,
+    /// The largest that the surface has.
+    Auto,
+    /// The mirror plane square to x.
+    X,
+    /// The mirror plane square to y.
+    Y,
+    /// Both.
+    Xy,
+    /// The turn by a full turn over this number.
+    Turns(u32),
+}
+
+/// A symmetry as recipes have it.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Written {
+    Number(u32),
+    Name(String),
+}
+
+impl TryFrom<Written> for Symmetry {
+    type Error = Error;
+
+    fn try_from(written: Written) -> Result<Symmetry> {
+        match written {
+            Written::Number(n) => n.to_string().parse(),
+            Written::Name(name) => name.parse(),
+        }
+    }
+}
+
+impl std::str::FromStr for Symmetry {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Symmetry> {
+        match (text, text.parse()) {
+            ("none", _) => Ok(Symmetry::None),
+            ("auto", _) => Ok(Symmetry::Auto),
+            ("x", _) => Ok(Symmetry::X),
+            ("y", _) => Ok(Symmetry::Y),
+            ("xy", _) => Ok(Symmetry::Xy),
+            (_, Ok(n)) if (2..=MOST_TURNS).contains(&n) => Ok(Symmetry::Turns(n)),
+            _ => Err(Error::Option(format!(
+                "no symmetry {text:?}: it must be none, auto, x, y, xy, or a number of turns from 2 to {MOST_TURNS}"
+            ))),
+        }
+    }
+}
+
+impl std::fmt::Display for Symmetry {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            Symmetry::None => f.write_str("none"),
+            Symmetry::Auto => f.write_str("auto"),
+            Symmetry::X => f.write_str("x"),
+            Symmetry::Y => f.write_str("y"),
+            Symmetry::Xy => f.write_str("xy"),
+            Symmetry::Turns(n) => write!(f, "{n}"),
+        }
+    }
+}
+
+impl From<Symmetry> for String {
+    fn from(symmetry: Symmetry) -> String {
+        symmetry.to_string()
+    }
+}
+
+/// A grid of more turns has too narrow parts.
+const MOST_TURNS: u32 = 12;
+
 /// How the bubbles start and settle (Sections 4.1 and 4.2).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -263,6 +343,7 @@ impl Default for Recipe {
             nodes: None,
             size: Size::Uniform,
             direction: Direction::Any,
+            symmetry: Symmetry::None,
             seed: 1,
             corner_angle_deg: 30.0,
             feature_angle_deg: 40.0,
@@ -391,6 +472,7 @@ impl Recipe {
         }
         self.size.validate()?;
         self.direction.validate()?;
+        self.validate_symmetry()?;
         within("corner_angle_deg", self.corner_angle_deg, 0.0, 180.0)?;
         within("feature_angle_deg", self.feature_angle_deg, 1.0, 180.0)?;
         let mut fixed = self.guides.iter().flatten().chain(&self.anchors).flatten();
@@ -418,6 +500,25 @@ impl Recipe {
         within("regularize.candidates", self.regularize.candidates as f64, 1.0, 1e4)?;
         within("relax.straightness", self.relax.straightness, 0.0, 100.0)?;
         positive("relax.settled", self.relax.settled)
+    }
+
+    /// Refuse what need not be symmetric beside a symmetry.
+    fn validate_symmetry(&self) -> Result<()> {
+        if let Symmetry::Turns(n) = self.symmetry {
+            within("symmetry", f64::from(n), 2.0, f64::from(MOST_TURNS))?;
+        }
+        let given = [
+            (!self.guides.is_empty(), "guides"),
+            (!self.anchors.is_empty(), "anchors"),
+            (self.direction != Direction::Any, "a direction"),
+            (matches!(self.size, Size::Points { .. }), "lengths at points"),
+        ];
+        match given.iter().find(|g| g.0) {
+            Some((_, what)) if self.symmetry != Symmetry::None => Err(Error::Option(format!(
+                "{what} cannot be given together with a symmetry: leave out one of the two"
+            ))),
+            _ => Ok(()),
+        }
     }
 
     /// Check that members of `edge_length` metres on a surface of `area` square metres make a grid of a
