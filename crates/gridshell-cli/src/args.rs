@@ -57,6 +57,19 @@ pub struct Generate {
     /// Method: `default`, or `paper` for the method as printed.
     #[arg(short, long, value_name = "NAME")]
     pub method: Option<String>,
+    /// Edges where the surface turns by more than this become lines of members, degrees; 180 finds none.
+    #[arg(long, value_name = "DEG", value_parser = positive, allow_negative_numbers = true)]
+    pub feature_angle: Option<f64>,
+    /// Polylines that become lines of members: an OBJ file with `v` and `l`, or a text with one point `x y z` a
+    /// line and a blank line between polylines.
+    #[arg(long, value_name = "FILE")]
+    pub guides: Option<PathBuf>,
+    /// A point on the surface that becomes a node; may be given more than once.
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    pub anchor: Vec<[f64; 3]>,
+    /// Points that become nodes: a text with one point `x y z` a line.
+    #[arg(long, value_name = "FILE")]
+    pub anchors: Option<PathBuf>,
     /// Recipe with all options; flags override it.
     #[arg(short, long, value_name = "FILE.toml")]
     pub recipe: Option<PathBuf>,
@@ -105,6 +118,16 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Three coordinates.
+fn point(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Vec<f64> = text.split(',').filter_map(|x| x.trim().parse().ok()).collect();
+    let whole = numbers.len() == text.split(',').count();
+    match <[f64; 3]>::try_from(numbers) {
+        Ok(p) if whole && p.iter().all(|x| x.is_finite()) => Ok(p),
+        _ => Err("it must be three numbers x,y,z in metres".to_owned()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -121,5 +144,13 @@ mod tests {
             assert!(positive(text).is_err(), "{text}");
         }
         assert_eq!(positive("2.12"), Ok(2.12));
+    }
+
+    #[test]
+    fn points_that_are_no_points_are_refused() {
+        for text in ["", "1,2", "1,2,3,4", "1,b,3", "1,b,3,4", "1,2,nan", "1 2 3"] {
+            assert!(point(text).is_err(), "{text}");
+        }
+        assert_eq!(point("-1, 2.5,3e1"), Ok([-1.0, 2.5, 30.0]));
     }
 }

@@ -23,6 +23,18 @@ pub fn from_args(args: &Generate) -> Result<Recipe, Failure> {
     if let Some(seed) = args.seed {
         recipe.seed = seed;
     }
+    if let Some(angle) = args.feature_angle {
+        recipe.feature_angle_deg = angle;
+    }
+    if let Some(path) = &args.guides {
+        let guides = io::read_guides(path)?;
+        recipe.guides =
+            guides.into_iter().map(|g| g.into_iter().map(|p| p.to_array()).collect()).collect();
+    }
+    if let Some(path) = &args.anchors {
+        recipe.anchors = io::read_anchors(path)?.into_iter().map(|p| p.to_array()).collect();
+    }
+    recipe.anchors.extend(&args.anchor);
     if let Some(size) = &args.size {
         recipe.size = match size.as_str() {
             "uniform" => Size::Uniform,

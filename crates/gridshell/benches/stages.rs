@@ -41,14 +41,14 @@ impl Size {
             pieces.iter().map(|p| pack::boundary::member_count(p, length)).collect();
         let boundary = pack::boundary::place(&surface, &pieces, &counts, 0.0);
         let count = pack::interior_count(&surface, boundary.len(), length, recipe.pack.k_n);
-        let interior = pack::scatter(
+        let mut bubbles = Bubbles { boundary, ..Bubbles::default() };
+        bubbles.interior = pack::scatter(
             &surface,
             count,
-            &boundary,
+            &bubbles.xyz(&surface),
             0.6 * length,
             &mut fastrand::Rng::with_seed(1),
         );
-        let bubbles = Bubbles { boundary, interior };
         let mut settled = bubbles.clone();
         pack::settle(&surface, &mut settled, length, &recipe.pack, &Job::default());
         let grid = triangulate::triangulate(&surface, &settled).unwrap().0;

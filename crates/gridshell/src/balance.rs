@@ -123,6 +123,9 @@ fn directions(surface: &Surface, grid: &Grid, i: usize) -> [DVec3; 2] {
         Place::Boundary(c) => {
             [surface.loops[c.chain as usize].tangent(&surface.carrier, c.s), DVec3::ZERO]
         }
-        Place::Corner(_) => [DVec3::ZERO; 2],
+        Place::Feature(c) => {
+            [surface.features[c.chain as usize].tangent(&surface.carrier, c.s), DVec3::ZERO]
+        }
+        Place::Corner(_) | Place::Fixed(_) => [DVec3::ZERO; 2],
     }
 }

@@ -2,8 +2,11 @@
 
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::surface::{ChainPoint, Locator, Surface, SurfacePoint};
+use crate::surface::{Chain, ChainPoint, Locator, Surface, SurfacePoint};
 use glam::DVec3;
+
+/// A node on a line slides at most this share of the way to the next node there.
+const ROOM: f64 = 0.4;
 
 /// Where a node sits on the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +17,10 @@ pub enum Place {
     Boundary(ChainPoint),
     /// Fixed at a corner of a boundary loop: `chain` is the loop and `s` the corner's arc length.
     Corner(ChainPoint),
+    /// Free to slide along a feature, of which `chain` is the number.
+    Feature(ChainPoint),
+    /// Fixed at a vertex of the carrier inside: an anchor, or an end, junction or corner of a feature.
+    Fixed(SurfacePoint),
 }
 
 /// Cosine of the turn of the surface along a sharp member.
@@ -86,17 +93,21 @@ impl Grid {
                 let t = surface.loops[c.chain as usize].tangent(&surface.carrier, c.s);
                 t * v.dot(t)
             }
-            Place::Corner(_) => DVec3::ZERO,
+            Place::Feature(c) => {
+                let t = surface.features[c.chain as usize].tangent(&surface.carrier, c.s);
+                t * v.dot(t)
+            }
+            Place::Corner(_) | Place::Fixed(_) => DVec3::ZERO,
         }
     }
 
-    /// Slide node `i` by about `step` on the surface or along its loop, where it keeps a distance from its
-    /// neighbours on the loop; gives the distance moved, metres.
+    /// Slide node `i` by about `step` on the surface or along its loop or feature, where it keeps a distance from
+    /// its neighbours; gives the distance moved, metres.
     pub fn slide(&mut self, surface: &Surface, i: usize, step: DVec3) -> f64 {
         let before = self.xyz[i];
         match &mut self.places[i] {
             Place::Interior(p) => {
-                *p = surface.carrier.trace(p, step);
+                *p = surface.carrier.trace_between_features(p, step);
                 self.xyz[i] = surface.carrier.xyz(p);
             }
             Place::Boundary(c) => {
@@ -109,7 +120,16 @@ impl Grid {
                 self.places[i] = Place::Boundary(ChainPoint { s, ..at });
                 self.xyz[i] = chain.xyz(&surface.carrier, s);
             }
-            Place::Corner(_) => {}
+            Place::Feature(c) => {
+                let chain = &surface.features[c.chain as usize];
+                let along = step.dot(chain.tangent(&surface.carrier, c.s));
+                let at = *c;
+                let [back, forward] = self.room_on_feature(chain, i, at);
+                let s = chain.wrap(at.s + along.clamp(-back, forward));
+                self.places[i] = Place::Feature(ChainPoint { s, ..at });
+                self.xyz[i] = chain.xyz(&surface.carrier, s);
+            }
+            Place::Corner(_) | Place::Fixed(_) => {}
         }
         self.xyz[i].distance(before)
     }
@@ -117,7 +137,6 @@ impl Grid {
     /// How far boundary node `i` at `at` may slide forward (or back) along its loop: part of the way to the
     /// next node there.
     fn room(&self, surface: &Surface, i: usize, at: ChainPoint, forward: bool) -> f64 {
-        const SHARE: f64 = 0.4;
         let v = i as u32;
         let next =
             if forward { self.mesh.next_on_boundary(v) } else { self.mesh.previous_on_boundary(v) };
@@ -127,7 +146,75 @@ impl Grid {
             return 0.0;
         };
         let gap = if forward { other.s - at.s } else { at.s - other.s };
-        SHARE * surface.loops[at.chain as usize].wrap(gap)
+        ROOM * surface.loops[at.chain as usize].wrap(gap)
+    }
+
+    /// How far node `i` at `at` on a feature may slide back and forward: part of the way to the next node there.
+    fn room_on_feature(&self, chain: &Chain, i: usize, at: ChainPoint) -> [f64; 2] {
+        let length = chain.length();
+        let mut room = if chain.is_closed() { [length; 2] } else { [at.s, length - at.s] };
+        for &w in self.mesh.along_features(i as u32) {
+            // Fixed nodes stand at the ends.
+            let Place::Feature(other) = self.places[w as usize] else { continue };
+            let gaps = [at.s - other.s, other.s - at.s];
+            for (room, gap) in room.iter_mut().zip(gaps) {
+                if chain.is_closed() {
+                    *room = room.min(chain.wrap(gap));
+                } else if gap >= 0.0 {
+                    *room = room.min(gap);
+                }
+            }
+        }
+        room.map(|gap| ROOM * gap)
+    }
+
+    /// The middle of the feature member between nodes `a` and `b`; None where both are fixed and no node of a
+    /// feature tells which one it is.
+    pub fn middle_on_feature(&self, surface: &Surface, a: u32, b: u32) -> Option<Place> {
+        let (pa, pb) = (self.places[a as usize], self.places[b as usize]);
+        let (at, other) = match (pa, pb) {
+            (Place::Feature(at), other) | (other, Place::Feature(at)) => (at, other),
+            _ => return self.middle_of_whole_feature(surface, pa, pb),
+        };
+        let chain = &surface.features[at.chain as usize];
+        let s = match other {
+            Place::Feature(other) if chain.is_closed() => {
+                let gap = chain.wrap(other.s - at.s);
+                let half = 0.5 * chain.length();
+                chain.wrap(at.s + 0.5 * if gap > half { gap - chain.length() } else { gap })
+            }
+            Place::Feature(other) => 0.5 * (at.s + other.s),
+            end => {
+                // The nearer end where both are the same fixed node.
+                let far = self.xyz[a as usize] + self.xyz[b as usize];
+                let middles = [0.5 * at.s, 0.5 * (at.s + chain.length())];
+                let ends = [0.0, chain.length()].map(|s| chain.xyz(&surface.carrier, s));
+                let is_end = ends.map(|e| e == end.xyz(surface));
+                let off = middles.map(|s| (chain.xyz(&surface.carrier, s) * 2.0 - far).length());
+                match is_end {
+                    [true, false] => middles[0],
+                    [false, true] => middles[1],
+                    _ => middles[usize::from(off[1] < off[0])],
+                }
+            }
+        };
+        Some(Place::Feature(ChainPoint { chain: at.chain, s }))
+    }
+
+    /// The middle of the feature from one fixed node to another that is a single member.
+    fn middle_of_whole_feature(&self, surface: &Surface, a: Place, b: Place) -> Option<Place> {
+        let ends = [a.xyz(surface), b.xyz(surface)];
+        let taken =
+            |c: u32| self.places.iter().any(|p| matches!(p, Place::Feature(at) if at.chain == c));
+        let joins = |chain: &Chain| {
+            let last = chain.vertices[chain.vertices.len() - 1];
+            let own = [chain.vertices[0], last].map(|v| surface.carrier.points[v as usize]);
+            !chain.is_closed() && (own == ends || [own[1], own[0]] == ends)
+        };
+        let mut whole = (0..surface.features.len()).filter(|&c| joins(&surface.features[c]));
+        let c = whole.find(|&c| !taken(c as u32))?;
+        let s = 0.5 * surface.features[c].length();
+        Some(Place::Feature(ChainPoint { chain: c as u32, s }))
     }
 
     /// The grid of these nodes and panels (oriented alike), each node with the place of `surface` nearest to
@@ -183,7 +270,10 @@ impl Place {
     pub fn off_surface(&self, surface: &Surface, xyz: DVec3) -> f64 {
         let off_patch = surface.deviation(&self.surface_point(surface), xyz);
         match self {
-            Place::Interior(_) => off_patch,
+            Place::Interior(_) | Place::Fixed(_) => off_patch,
+            Place::Feature(c) => {
+                off_patch.min(surface.features[c.chain as usize].deviation(surface, c.s, xyz))
+            }
             Place::Boundary(_) | Place::Corner(_) => off_patch.min(self.off_boundary(surface, xyz)),
         }
     }
@@ -191,17 +281,23 @@ impl Place {
     /// Distance in metres of `xyz` from the exact boundary; 0 for an interior place.
     pub fn off_boundary(&self, surface: &Surface, xyz: DVec3) -> f64 {
         match self {
-            Place::Interior(_) => 0.0,
+            Place::Interior(_) | Place::Feature(_) | Place::Fixed(_) => 0.0,
             Place::Boundary(c) | Place::Corner(c) => {
                 surface.loops[c.chain as usize].deviation(surface, c.s, xyz)
             }
         }
     }
 
+    /// Whether it may not move at all.
+    pub fn is_fixed(&self) -> bool {
+        matches!(self, Place::Corner(_) | Place::Fixed(_))
+    }
+
     /// The carrier point of this place.
     pub fn surface_point(&self, surface: &Surface) -> SurfacePoint {
         match self {
-            Place::Interior(p) => *p,
+            Place::Interior(p) | Place::Fixed(p) => *p,
+            Place::Feature(c) => surface.features[c.chain as usize].surface_point(c.s),
             Place::Boundary(c) | Place::Corner(c) => {
                 surface.loops[c.chain as usize].surface_point(c.s)
             }
@@ -222,6 +318,9 @@ impl Place {
     pub fn exact(&self, surface: &Surface) -> DVec3 {
         match self {
             Place::Interior(p) => surface.exact(p),
+            Place::Feature(c) => surface.features[c.chain as usize].exact(surface, c.s),
+            // Fixed vertices of the carrier are exact as they stand.
+            Place::Fixed(p) => surface.carrier.xyz(p),
             Place::Boundary(c) | Place::Corner(c) => {
                 surface.loops[c.chain as usize].exact(surface, c.s)
             }
@@ -231,7 +330,8 @@ impl Place {
     /// The position on the carrier.
     pub fn xyz(&self, surface: &Surface) -> DVec3 {
         match self {
-            Place::Interior(p) => surface.carrier.xyz(p),
+            Place::Interior(p) | Place::Fixed(p) => surface.carrier.xyz(p),
+            Place::Feature(c) => surface.features[c.chain as usize].xyz(&surface.carrier, c.s),
             Place::Boundary(c) | Place::Corner(c) => {
                 surface.loops[c.chain as usize].xyz(&surface.carrier, c.s)
             }

@@ -178,10 +178,12 @@ impl Sums {
     /// single members and panels. Higher is better.
     pub fn merit(&self, lambda: f64) -> f64 {
         let over = |x: f64, limit: f64| (x - limit).max(0.0);
-        let inner = self.members - self.border_members;
-        let held_back = 6.0 * over(inner.cv(), 0.05)
-            + 1.5 * over(self.border_members.cv(), 0.11)
-            + 3.0 * over(0.96, self.border_shape_mean())
+        // Members at the border cannot be as even as those inside.
+        let share = self.border_members.count / self.members.count.max(1.0);
+        let spread = (share * 0.14 * 0.14 + (1.0 - share) * 0.045 * 0.045).sqrt();
+        let held_back = 8.0 * over(self.members.cv(), spread)
+            + 2.0 * over(self.border_members.cv(), 0.118)
+            + 3.0 * over(0.958, self.border_shape_mean())
             + 10.0 * over((self.members.mean() - 1.0).abs(), 0.01)
             + 30.0 * over(0.986, self.area)
             + 20.0 * over(self.astray / self.guided.max(1.0), ASTRAY)

@@ -22,6 +22,12 @@ pub struct Recipe {
     pub seed: u64,
     /// Boundary vertices where the boundary turns by more than this are corners (fixed nodes), degrees.
     pub corner_angle_deg: f64,
+    /// Edges where the surface turns by more than this are creases that members follow, degrees; 180 finds none.
+    pub feature_angle_deg: f64,
+    /// Polylines on the surface that members follow: their points, metres.
+    pub guides: Vec<Vec<[f64; 3]>>,
+    /// Points on the surface that are nodes, metres.
+    pub anchors: Vec<[f64; 3]>,
     /// What the border is worth. From 0 on, panels and members at the border weigh more against the lines inside
     /// ([`Recipe::border_weight`]). Above 0.5 rows of members follow the borders that the lattice lies nearly
     /// parallel to ([`Recipe::row_angle`]), at 1 all borders.
@@ -259,6 +265,9 @@ impl Default for Recipe {
             direction: Direction::Any,
             seed: 1,
             corner_angle_deg: 30.0,
+            feature_angle_deg: 40.0,
+            guides: Vec::new(),
+            anchors: Vec::new(),
             border: 0.25,
             pack: Pack::default(),
             regularize: Regularize::default(),
@@ -291,7 +300,7 @@ impl Default for Regularize {
             method: RegularizeMethod::Search,
             max_rounds: 200,
             node_range: 0.1,
-            trials: 6000,
+            trials: 2000,
             most_trials: 240_000,
             candidates: 16,
             heats: vec![[16, 40], [5, 120], [2, 300]],
@@ -383,6 +392,15 @@ impl Recipe {
         self.size.validate()?;
         self.direction.validate()?;
         within("corner_angle_deg", self.corner_angle_deg, 0.0, 180.0)?;
+        within("feature_angle_deg", self.feature_angle_deg, 1.0, 180.0)?;
+        let mut fixed = self.guides.iter().flatten().chain(&self.anchors).flatten();
+        if let Some(x) = fixed.find(|x| !x.is_finite()) {
+            let what = format!("guides and anchors hold the coordinate {x}: give finite ones");
+            return Err(Error::Option(what));
+        }
+        if let Some(i) = self.guides.iter().position(|g| g.len() < 2) {
+            return Err(Error::Option(format!("guide {} needs two points or more", i + 1)));
+        }
         within("border", self.border, 0.0, 1.0)?;
         within("measure.lambda", self.measure.lambda, 0.0, 1.0)?;
 

@@ -2,6 +2,7 @@
 
 mod file;
 mod grid_file;
+mod lines;
 mod obj;
 mod off;
 mod ply;
@@ -12,6 +13,7 @@ mod values;
 mod weld;
 
 pub use grid_file::GridFile;
+pub use lines::{read_anchors, read_guides};
 pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};

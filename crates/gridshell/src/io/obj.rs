@@ -2,7 +2,7 @@
 //! at hand tell no line numbers.
 
 use super::grid_file::GridFile;
-use super::scan::{self, Line};
+use super::scan;
 use super::{file, weld};
 use crate::error::Result;
 use crate::surface::PolygonMesh;
@@ -28,7 +28,7 @@ pub(super) fn read(path: &Path) -> Result<PolygonMesh> {
             Some("v") => mesh.points.push(line.point(&mut words)?),
             Some("f") => {
                 let face: Result<Vec<u32>> =
-                    words.map(|word| corner(&line, word, mesh.points.len())).collect();
+                    words.map(|word| scan::vertex(&line, word, mesh.points.len())).collect();
                 let face = face?;
                 if face.len() < 3 {
                     return Err(line.error("a face needs three corners or more"));
@@ -43,19 +43,6 @@ pub(super) fn read(path: &Path) -> Result<PolygonMesh> {
         mesh.notes.push(format!("skipped {curved} curved elements: only faces are read from OBJ"));
     }
     weld::weld(path, mesh)
-}
-
-/// Index of the vertex that a face's corner (`v`, `v/vt`, `v//vn` or `v/vt/vn`) means; counted from 1, or
-/// backwards from the latest with -1.
-fn corner(line: &Line, word: &str, count: usize) -> Result<u32> {
-    let index: i64 = line.number(word.split('/').next(), "a vertex number")?;
-    let from_zero =
-        if index < 0 { i64::try_from(count).unwrap_or(i64::MAX) + index } else { index - 1 };
-    match usize::try_from(from_zero) {
-        Ok(v) if v < count => Ok(v as u32),
-        _ => Err(line
-            .error(format!("the face uses vertex {index}, but only {count} are given above it"))),
-    }
 }
 
 /// Join lines that end in a backslash with the next, keeping the count of lines.

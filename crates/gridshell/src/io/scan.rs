@@ -25,6 +25,11 @@ pub(super) fn lines<'a>(path: &'a Path, text: &'a str) -> impl Iterator<Item = L
 }
 
 impl<'a> Line<'a> {
+    /// Its number, from 1.
+    pub(super) fn number_in_file(&self) -> usize {
+        self.number
+    }
+
     /// What is wrong in this line.
     pub(super) fn error(&self, message: impl Into<String>) -> Error {
         Error::Parse {
@@ -50,6 +55,18 @@ impl<'a> Line<'a> {
         }
         let p = DVec3::from(p);
         if p.is_finite() { Ok(p) } else { Err(self.error("a coordinate is not finite")) }
+    }
+}
+
+/// Index of the vertex that a word of a face or line in an OBJ file means (`v`, `v/vt`, `v//vn` or `v/vt/vn`);
+/// counted from 1, or backwards from the latest with -1.
+pub(super) fn vertex(line: &Line, word: &str, count: usize) -> Result<u32> {
+    let index: i64 = line.number(word.split('/').next(), "a vertex number")?;
+    let from_zero =
+        if index < 0 { i64::try_from(count).unwrap_or(i64::MAX) + index } else { index - 1 };
+    match usize::try_from(from_zero) {
+        Ok(v) if v < count => Ok(v as u32),
+        _ => Err(line.error(format!("vertex {index} is used, but only {count} are given above"))),
     }
 }
 

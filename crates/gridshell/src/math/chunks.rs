@@ -29,7 +29,7 @@ pub(crate) fn collect<T: Send>(n: usize, entry: impl Fn(usize) -> T + Sync) -> V
     if n <= CHUNK {
         return (0..n).map(entry).collect();
     }
-    (0..n).into_par_iter().with_min_len(CHUNK).map(|i| entry(i)).collect()
+    (0..n).into_par_iter().with_min_len(CHUNK).map(&entry).collect()
 }
 
 #[cfg(test)]

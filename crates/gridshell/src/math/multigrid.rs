@@ -261,7 +261,9 @@ mod tests {
             let mut rng = fastrand::Rng::with_seed(1);
             let mut truth: Vec<DVec2> = (0..n).map(|_| DVec2::new(rng.f64(), rng.f64())).collect();
             let mean = truth.iter().sum::<DVec2>() / n as f64;
-            truth.iter_mut().for_each(|v| *v -= mean);
+            for v in &mut truth {
+                *v -= mean;
+            }
             let mut right = vec![DVec2::ZERO; n];
             multigrid.apply(&truth, &mut right);
             let mut x = vec![DVec2::ZERO; n];

@@ -24,6 +24,13 @@ impl Mesh {
                     return Err(format!("vertex {v} lists {w} but not the other way round"));
                 }
             }
+            for &w in self.along_features(v) {
+                if !self.adjacent(v, w) || !self.is_feature_edge(w, v) {
+                    return Err(format!(
+                        "vertex {v} is on a feature with {w}, which it is not joined to"
+                    ));
+                }
+            }
             for (a, b) in self.fan(v) {
                 if self.left(a, b) != Some(v) || self.left(b, v) != Some(a) {
                     return Err(format!("triangle {v} {a} {b} is not seen alike from its corners"));

@@ -2,7 +2,7 @@
 //! pins in one place. Geometry (folded triangles, lengths) is the caller's to judge, before or after: a
 //! recorded run of edits can be taken back.
 
-use super::{Mesh, Ring};
+use super::{Along, Mesh, Ring};
 
 /// Why an edit was refused; the mesh is then unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -22,6 +22,9 @@ pub enum Refusal {
     /// Collapsing would pinch the surface, close a hole or leave the boundary.
     #[error("collapsing the edge would change the surface's topology or leave the boundary")]
     Link,
+    /// The edge is part of a feature, or the vertex would leave its feature.
+    #[error("the edge or vertex is part of a feature")]
+    Feature,
     /// The vertex is a corner or an anchor.
     #[error("the vertex is a corner or an anchor")]
     Pinned,
@@ -30,20 +33,29 @@ pub enum Refusal {
 /// What takes back a run of edits: the vertices touched, as they were.
 #[derive(Clone, Debug, Default)]
 pub struct Undo {
-    touched: Vec<(u32, Ring, bool)>,
+    touched: Vec<Touched>,
+}
+
+/// A vertex as it was.
+#[derive(Clone, Debug)]
+struct Touched {
+    vertex: u32,
+    ring: Ring,
+    boundary: bool,
+    features: Along,
 }
 
 impl Undo {
     /// The vertices touched since recording began, in order, with repetitions.
     pub fn touched(&self) -> impl Iterator<Item = u32> + '_ {
-        self.touched.iter().map(|t| t.0)
+        self.touched.iter().map(|t| t.vertex)
     }
 
     /// Whether the edits together changed nothing in `mesh`.
     pub fn is_idle(&self, mesh: &Mesh) -> bool {
-        self.touched.iter().enumerate().all(|(k, (v, ring, _))| {
-            let again = self.touched[..k].iter().any(|t| t.0 == *v);
-            again || is_turned(ring, mesh.ring(*v))
+        self.touched.iter().enumerate().all(|(k, t)| {
+            let again = self.touched[..k].iter().any(|earlier| earlier.vertex == t.vertex);
+            again || is_turned(&t.ring, mesh.ring(t.vertex))
         })
     }
 
@@ -80,6 +92,9 @@ impl Mesh {
         let (Some(c), Some(d)) = (self.left(a, b), self.right(a, b)) else {
             return Err(Refusal::Boundary);
         };
+        if self.is_feature_edge(a, b) {
+            return Err(Refusal::Feature);
+        }
         if !self.spares_edge(a) || !self.spares_edge(b) {
             return Err(Refusal::Degree);
         }
@@ -94,7 +109,8 @@ impl Mesh {
         Ok((c, d))
     }
 
-    /// Split the edge `a`, `b` by a new vertex, joined to the apexes on both sides. Gives the new vertex.
+    /// Split the edge `a`, `b` by a new vertex, joined to the apexes on both sides. Gives the new vertex. A
+    /// feature runs on through it.
     ///
     /// ```text
     ///     c            c
@@ -120,6 +136,11 @@ impl Mesh {
         self.insert_after(c, a, m);
         self.rings[m as usize] = Ring::from_slice(&[b, c, a]);
         self.boundary[m as usize] = d.is_none();
+        if self.is_feature_edge(a, b) {
+            self.features[m as usize] = Along::from_slice(&[a, b]);
+            self.rejoin(a, b, m);
+            self.rejoin(b, a, m);
+        }
         self.alive += 1;
         if let Some(d) = d {
             self.touch(&[d], undo);
@@ -132,7 +153,7 @@ impl Mesh {
     /// Collapse the edge `keep`, `gone`: `gone` disappears and its edges go to `keep`.
     ///
     /// # Errors
-    /// [`Refusal`] when the link condition fails, a boundary vertex would leave the boundary, `gone` is
+    /// [`Refusal`] when the link condition fails, a vertex would leave the boundary or its feature, `gone` is
     /// pinned, or an apex would be left with too few edges.
     pub fn try_collapse(&mut self, keep: u32, gone: u32, undo: &mut Undo) -> Result<(), Refusal> {
         let (a, b) = (keep, gone);
@@ -146,6 +167,7 @@ impl Mesh {
         if self.boundary[b as usize] && !boundary_edge {
             return Err(Refusal::Link);
         }
+        let onward = self.onward(a, b)?;
         let apexes = [self.left(a, b), self.right(a, b)];
         let common = self.ring(a).iter().filter(|&&x| self.adjacent(b, x)).count();
         if common != apexes.iter().flatten().count() {
@@ -167,6 +189,12 @@ impl Mesh {
         }
         self.touch(&[a, b], undo);
         self.touch(&others, undo);
+        if let Some(w) = onward {
+            self.touch(&[w], undo);
+            self.rejoin(w, b, a);
+            self.rejoin(a, b, w);
+        }
+        self.features[b as usize].clear();
         for &x in apexes.iter().flatten() {
             self.touch(&[x], undo);
             self.remove(x, b);
@@ -187,7 +215,7 @@ impl Mesh {
 
     /// Take back the edits recorded in `undo`, newest first, and clear it.
     pub fn take_back(&mut self, undo: &mut Undo) {
-        while let Some((v, ring, boundary)) = undo.touched.pop() {
+        while let Some(Touched { vertex: v, ring, boundary, features }) = undo.touched.pop() {
             match (self.rings[v as usize].is_empty(), ring.is_empty()) {
                 (true, false) => {
                     self.alive += 1;
@@ -201,7 +229,21 @@ impl Mesh {
             }
             self.rings[v as usize] = ring;
             self.boundary[v as usize] = boundary;
+            self.features[v as usize] = features;
         }
+    }
+
+    /// Where the feature through `gone` runs on to when `gone` is taken into `keep`; None where there is none.
+    fn onward(&self, keep: u32, gone: u32) -> Result<Option<u32>, Refusal> {
+        let next = match self.features[gone as usize].as_slice() {
+            [] => return Ok(None),
+            &[p, q] if p == keep => q,
+            &[p, q] if q == keep => p,
+            // Off the feature, or the feature's end or junction.
+            _ => return Err(Refusal::Feature),
+        };
+        // A feature of three members all round would collapse into one edge.
+        if self.is_feature_edge(keep, next) { Err(Refusal::Feature) } else { Ok(Some(next)) }
     }
 
     /// Put a new vertex into the triangle `a`, `b`, `c` (counter-clockwise), joined to its corners.
@@ -229,6 +271,10 @@ impl Mesh {
             .iter()
             .map(|v| self.rings[*v as usize].iter().map(|&w| new[w as usize]).collect())
             .collect();
+        self.features = old
+            .iter()
+            .map(|v| self.features[*v as usize].iter().map(|&w| new[w as usize]).collect())
+            .collect();
         self.boundary = old.iter().map(|v| self.boundary[keep(v)]).collect();
         self.pinned = old.iter().map(|v| self.pinned[keep(v)]).collect();
         self.free.clear();
@@ -248,12 +294,28 @@ impl Mesh {
         self.rings.push(Ring::new());
         self.boundary.push(false);
         self.pinned.push(false);
+        self.features.push(Along::new());
         self.rings.len() as u32 - 1
     }
 
     fn touch(&self, vertices: &[u32], undo: &mut Undo) {
         for &v in vertices {
-            undo.touched.push((v, self.rings[v as usize].clone(), self.boundary[v as usize]));
+            let i = v as usize;
+            undo.touched.push(Touched {
+                vertex: v,
+                ring: self.rings[i].clone(),
+                boundary: self.boundary[i],
+                features: self.features[i].clone(),
+            });
+        }
+    }
+
+    /// Let the feature at `v` run to `new` instead of `old`.
+    fn rejoin(&mut self, v: u32, old: u32, new: u32) {
+        for x in &mut self.features[v as usize] {
+            if *x == old {
+                *x = new;
+            }
         }
     }
 
@@ -332,7 +394,89 @@ mod tests {
         assert!(mesh.try_collapse(5, 6, &mut Undo::default()).is_ok());
     }
 
+    /// The vertices of the feature that begins at `start` and runs on over unpinned vertices to a pinned one.
+    fn feature(mesh: &Mesh, start: u32) -> Vec<u32> {
+        let mut found = vec![start];
+        let mut at = mesh.along_features(start)[0];
+        while !mesh.is_pinned(at) {
+            let before = found[found.len() - 1];
+            found.push(at);
+            let along = mesh.along_features(at);
+            assert_eq!(along.len(), 2, "vertex {at}");
+            at = if along[0] == before { along[1] } else { along[0] };
+        }
+        found.push(at);
+        found
+    }
+
+    /// A lattice of `n` x `n` with a feature along the row in its middle, its ends pinned.
+    fn creased(n: u32) -> (Mesh, [u32; 2]) {
+        let mut mesh = lattice(n);
+        let row = n * (n / 2);
+        for i in 0..n - 1 {
+            mesh.mark_feature(row + i, row + i + 1).expect("a row of the lattice");
+        }
+        let ends = [row, row + n - 1];
+        for v in ends {
+            mesh.pin(v, true);
+        }
+        (mesh, ends)
+    }
+
+    #[test]
+    fn a_feature_edge_is_not_flipped() {
+        let (mut mesh, _) = creased(5);
+        assert_eq!(mesh.try_flip(11, 12, &mut Undo::default()), Err(Refusal::Feature));
+    }
+
+    #[test]
+    fn a_vertex_does_not_leave_its_feature() {
+        let (mut mesh, ends) = creased(5);
+        assert_eq!(mesh.try_collapse(17, 12, &mut Undo::default()), Err(Refusal::Feature));
+        assert_eq!(mesh.try_collapse(12, 17, &mut Undo::default()), Ok(()));
+        assert_eq!(mesh.try_collapse(11, 12, &mut Undo::default()), Ok(()));
+        mesh.check().expect("valid");
+        assert_eq!(feature(&mesh, ends[0]), [10, 11, 13, 14]);
+    }
+
+    #[test]
+    fn a_closed_feature_keeps_three_members() {
+        let mut mesh = lattice(5);
+        for (a, b) in [(11, 12), (12, 16), (16, 11)] {
+            mesh.mark_feature(a, b).expect("the triangle 11, 12, 16");
+        }
+        assert_eq!(mesh.try_collapse(11, 12, &mut Undo::default()), Err(Refusal::Feature));
+    }
+
     proptest! {
+        #[test]
+        fn any_legal_edits_keep_the_feature_whole(
+            edits in prop::collection::vec((0u8..4, any::<u32>(), any::<u32>()), 1..200),
+        ) {
+            let (mut mesh, ends) = creased(7);
+            for (kind, pick, side) in edits {
+                let alive: Vec<u32> = mesh.vertices().collect();
+                let a = alive[pick as usize % alive.len()];
+                let b = mesh.ring(a)[side as usize % mesh.degree(a)];
+                let before = feature(&mesh, ends[0]);
+                let mut undo = Undo::default();
+                let _ = match kind {
+                    0 => mesh.try_flip(a, b, &mut undo).is_ok(),
+                    1 => mesh.try_split(a, b, &mut undo).is_ok(),
+                    _ => mesh.try_collapse(a, b, &mut undo).is_ok(),
+                };
+                prop_assert_eq!(mesh.check(), Ok(()));
+                let after = feature(&mesh, ends[0]);
+                prop_assert_eq!((after[0], after[after.len() - 1]), (ends[0], ends[1]));
+                let members = mesh.vertices().map(|v| mesh.along_features(v).len()).sum::<usize>() / 2;
+                prop_assert_eq!(members, after.len() - 1);
+                if kind == 3 {
+                    mesh.take_back(&mut undo);
+                    prop_assert_eq!(feature(&mesh, ends[0]), before);
+                }
+            }
+        }
+
         #[test]
         fn any_legal_edits_keep_the_mesh_valid(
             closed in any::<bool>(),

@@ -4,11 +4,11 @@
 //! to `ring(v)[i]` has the triangle `(v, ring[i], ring[i + 1])` on its left. The ring of an interior vertex
 //! is cyclic; that of a boundary vertex is open and begins with the next vertex along the boundary (surface
 //! to the left) and ends with the previous one, so `degree - 1` triangles surround it. Positions live
-//! elsewhere. Simplicial: two vertices share at most one edge.
+//! elsewhere. Edges may be marked as parts of features, which edits keep. Simplicial: two vertices share at most one edge.
 
 mod check;
 mod edit;
 mod topology;
 
 pub use edit::{Refusal, Undo};
-pub use topology::{Mesh, Ring};
+pub use topology::{Along, Mesh, Ring};

@@ -6,6 +6,9 @@ use smallvec::SmallVec;
 /// Ordered neighbours of a vertex.
 pub type Ring = SmallVec<[u32; 8]>;
 
+/// The neighbours of a vertex along features, in no meaning order: two on a feature, none off it.
+pub type Along = SmallVec<[u32; 2]>;
+
 /// A manifold, oriented triangle mesh as rings of neighbours. See the [module](super) for the convention.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
@@ -13,6 +16,8 @@ pub struct Mesh {
     pub(super) boundary: Vec<bool>,
     /// Vertices that no edit may remove: corners and anchors.
     pub(super) pinned: Vec<bool>,
+    /// Neighbours of each vertex along features.
+    pub(super) features: Vec<Along>,
     /// Vertices not removed.
     pub(super) alive: usize,
     /// Removed vertices, for reuse.
@@ -33,8 +38,13 @@ impl Mesh {
                 steps[t[k] as usize].push((t[(k + 1) % 3], t[(k + 2) % 3]));
             }
         }
-        let mut mesh =
-            Mesh { boundary: vec![false; n], pinned: vec![false; n], alive: n, ..Mesh::default() };
+        let mut mesh = Mesh {
+            boundary: vec![false; n],
+            pinned: vec![false; n],
+            features: vec![Along::new(); n],
+            alive: n,
+            ..Mesh::default()
+        };
         for (v, steps) in steps.into_iter().enumerate() {
             let (ring, boundary) = chain_up(&steps).ok_or_else(|| {
                 Error::Surface(format!("the triangles around vertex {v} do not form one fan"))
@@ -83,6 +93,32 @@ impl Mesh {
     /// Forbid (or allow again) the removal of `v`.
     pub fn pin(&mut self, v: u32, pinned: bool) {
         self.pinned[v as usize] = pinned;
+    }
+
+    /// Make the edge `a`, `b` part of a feature: no edit takes it away, but for splitting it and for collapsing
+    /// it along the feature.
+    ///
+    /// # Errors
+    /// [`Error::Surface`] when no edge joins the two.
+    pub fn mark_feature(&mut self, a: u32, b: u32) -> Result<()> {
+        if !self.adjacent(a, b) {
+            return Err(Error::Surface(format!("no member joins nodes {a} and {b} of a feature")));
+        }
+        if !self.is_feature_edge(a, b) {
+            self.features[a as usize].push(b);
+            self.features[b as usize].push(a);
+        }
+        Ok(())
+    }
+
+    /// Whether the edge `a`, `b` is part of a feature.
+    pub fn is_feature_edge(&self, a: u32, b: u32) -> bool {
+        self.features[a as usize].contains(&b)
+    }
+
+    /// The neighbours of `v` along features.
+    pub fn along_features(&self, v: u32) -> &[u32] {
+        &self.features[v as usize]
     }
 
     /// Place of `b` in the ring of `a`.

@@ -7,7 +7,7 @@
 //! from draw to draw. Their irregular nodes stand along the border, some tenths of the square root of the
 //! count, each with room about it: a few hundred trials for each do what thousands do in a small grid.
 
-use crate::recipe::Recipe;
+use crate::recipe::{Recipe, RegularizeMethod};
 
 /// Up to so many nodes the recipe's counts hold in full.
 const FULL: f64 = 2000.0;
@@ -16,6 +16,8 @@ const LEAST_DRAWS: usize = 16;
 const LEAST_CANDIDATES: usize = 5;
 /// Fewest trials of polishing per irregular node, in the last heat.
 const LEAST_POLISH: usize = 60;
+/// Fewest steps of packing, where a search comes after it.
+const LEAST_STEPS: usize = 300;
 /// Fewest trials of the search per irregular node.
 const LEAST_TRIALS: usize = 400;
 
@@ -36,6 +38,9 @@ pub fn budgeted(recipe: &Recipe, nodes: f64) -> Recipe {
     };
     let mut recipe = recipe.clone();
     recipe.pack.draws = cut(recipe.pack.draws, share, LEAST_DRAWS);
+    if recipe.regularize.method == RegularizeMethod::Search {
+        recipe.pack.max_steps = cut(recipe.pack.max_steps, share, LEAST_STEPS);
+    }
     let regularize = &mut recipe.regularize;
     regularize.candidates = cut(regularize.candidates, share, LEAST_CANDIDATES);
     let last = regularize.heats.last().map_or(1, |h| h[1]).max(1);
@@ -43,8 +48,7 @@ pub fn budgeted(recipe: &Recipe, nodes: f64) -> Recipe {
         *through = cut(*through, share, 1);
         *trials = cut(*trials, share, LEAST_POLISH * *trials / last);
     }
-    // From seconds for each candidate to milliseconds for each node, over less than one power of ten.
-    regularize.trials = cut(regularize.trials, share.powi(4), LEAST_TRIALS);
+    regularize.trials = cut(regularize.trials, share * share, LEAST_TRIALS);
     // All trials of one grid may take twice as long as all trials of the smallest full one, and then as the
     // border grows.
     let most = regularize.most_trials as f64 * (nodes / (20.0 * FULL)).sqrt().max(1.0);
@@ -77,9 +81,15 @@ mod tests {
         recipe.regularize.heats.clear();
         recipe.regularize.trials = 0;
         let budget = budgeted(&recipe, 1e5);
-        assert_eq!(budget.pack, recipe.pack);
         assert_eq!(budget.regularize.candidates, 1);
+        assert_eq!(budget.pack.draws, 1);
         assert_eq!(budget.regularize.trials, 0);
+    }
+
+    #[test]
+    fn method_as_printed_packs_until_it_settles() {
+        let paper = Recipe::named("paper").unwrap();
+        assert_eq!(budgeted(&paper, 1e5).pack.max_steps, paper.pack.max_steps);
     }
 
     #[test]

@@ -36,7 +36,7 @@ const SENSIBLE_NODES: usize = 1000;
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
     let Scale { length, nodes } = scale(model, recipe)?;
-    let surface = wishes::surface(model, recipe, length, |l| sampling(l, nodes, recipe))?;
+    let (surface, fixed) = wishes::surface(model, recipe, length, |l| sampling(l, nodes, recipe))?;
     let budget = effort::budgeted(recipe, nodes);
     let mut stages = Vec::new();
     let judge = |grid: &Grid| measure(grid, &surface, length, &recipe.measure);
@@ -67,7 +67,8 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
 
     let Start { report: settled, bubbles, .. } = &starts[winner.start];
     let (grid, report) = &triangulated[winner.start];
-    let mut warnings = warnings(&surface, bubbles.len(), report);
+    let mut warnings = fixed;
+    warnings.extend(self::warnings(&surface, bubbles.len(), report));
     // Bubbles have no members yet: what is measured, as in the paper's Table 3, is their Delaunay grid.
     let packed_quality = judge(grid);
     stages.push(StageReport {

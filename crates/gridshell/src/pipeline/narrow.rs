@@ -1,6 +1,6 @@
 //! Places where the surface is narrower than a member: short loops, and members across a neck.
 
-use crate::grid::{Grid, Place};
+use crate::grid::Grid;
 use crate::surface::{Ruler, Surface};
 use glam::DVec3;
 
@@ -44,7 +44,7 @@ fn necks<'a>(
     grid: &'a Grid,
     length: f64,
 ) -> impl Iterator<Item = DVec3> + 'a {
-    let inside = |v: u32| matches!(grid.places[v as usize], Place::Interior(_));
+    let inside = |v: u32| !grid.mesh.is_boundary(v);
     let across = move |&(a, b): &(u32, u32)| {
         let through = !inside(a) && !inside(b) && !grid.mesh.is_boundary_edge(a, b);
         through && grid.length(a, b) < SHORT * length * grid.scale(surface, a, b)

@@ -82,9 +82,16 @@ fn packing(surface: &Surface, length: f64, recipe: &Recipe, seed: u64, job: &Job
     let counts: Vec<usize> =
         pieces.iter().map(|p| pack::boundary::member_count(p, length)).collect();
     let boundary = pack::boundary::place(surface, &pieces, &counts, 0.0);
-    let count = pack::interior_count(surface, boundary.len(), length, recipe.pack.k_n);
-    let interior = pack::scatter(surface, count, &boundary, CLEAR * length, &mut rng);
-    let mut bubbles = Bubbles { boundary, interior };
+    let pieces = pack::boundary::feature_pieces(surface);
+    let counts: Vec<usize> =
+        pieces.iter().map(|p| pack::boundary::member_count(p, length)).collect();
+    let features = pack::boundary::place_on_features(surface, &pieces, &counts);
+    let fixed = surface.fixed.clone();
+    let mut bubbles = Bubbles { boundary, features, fixed, interior: Vec::new() };
+    let (held, rim) = (bubbles.held() - bubbles.boundary.len(), bubbles.boundary.len());
+    let count = pack::interior_count(surface, rim, length, recipe.pack.k_n);
+    let (count, xyz) = (count.saturating_sub(held), bubbles.xyz(surface));
+    bubbles.interior = pack::scatter(surface, count, &xyz, CLEAR * length, &mut rng);
     let report = pack::settle(surface, &mut bubbles, length, &recipe.pack, job);
     Start { bubbles, seed, report: Some(report), grid: None }
 }
@@ -97,7 +104,7 @@ fn lattices(
     recipe: &Recipe,
     job: &Job,
 ) -> Result<Starts> {
-    let pieces = pack::boundary::pieces(surface).len();
+    let pieces = pack::boundary::pieces(surface).len() + surface.features.len();
     let draws = recipe.pack.draws.max(1);
     let trial = balance::Options {
         straightness: recipe.relax.straightness,

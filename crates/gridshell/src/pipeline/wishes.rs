@@ -1,32 +1,49 @@
-//! The recipe's varying lengths and directions, laid on a surface.
+//! What the recipe fixes, and its varying lengths and directions, laid on a surface.
 
 use crate::error::Result;
 use crate::recipe::{Direction, Recipe, Size};
-use crate::surface::{Model, Sampling, Surface, grading};
+use crate::surface::{Fixtures, Model, Sampling, Surface, grading};
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// A carrier as fine as members of l0 ask for is made anew where members are to be shorter than this share of it.
 const SHORT: f64 = 0.8;
 /// But never finer than for this share.
 const SHORTEST: f64 = 0.2;
 
-/// The surface of `model` for members of `length` metres, with lengths and directions as the recipe wants them;
-/// `sampling` tells what suits members of a length.
+/// The surface of `model` for members of `length` metres, with features, anchors, lengths and directions as the
+/// recipe wants them, and what the user should know of them; `sampling` tells what suits members of a length.
 pub fn surface(
     model: &Model,
     recipe: &Recipe,
     length: f64,
     sampling: impl Fn(f64) -> Sampling,
-) -> Result<Surface> {
+) -> Result<(Surface, Vec<String>)> {
     let mut surface = model.surface(&sampling(length))?;
+    let mut told = fix(&mut surface, length, recipe)?;
     grade(&mut surface, recipe, Some(length));
     let least = surface.scale.iter().copied().fold(1.0, f64::min);
     if least < SHORT {
         surface = model.surface(&sampling(length * least.max(SHORTEST)))?;
+        told = fix(&mut surface, length, recipe)?;
         grade(&mut surface, recipe, Some(length));
     }
     direct(&mut surface, &recipe.direction);
-    Ok(surface)
+    Ok((surface, told))
+}
+
+/// Fix what the recipe asks for; gives what the user should know of it.
+fn fix(surface: &mut Surface, length: f64, recipe: &Recipe) -> Result<Vec<String>> {
+    let guides: Vec<Vec<DVec3>> =
+        recipe.guides.iter().map(|g| g.iter().map(|&p| p.into()).collect()).collect();
+    let anchors: Vec<DVec3> = recipe.anchors.iter().map(|&p| p.into()).collect();
+    surface.fix(&Fixtures {
+        crease_angle: Some(recipe.feature_angle_deg.to_radians()).filter(|&a| a < PI),
+        guides: &guides,
+        anchors: &anchors,
+        corner_angle: recipe.corner_angle_deg.to_radians(),
+        edge_length: length,
+    })
 }
 
 /// Have the lengths on `surface` vary as the recipe says, about `length` metres where that is known. Gives the mean

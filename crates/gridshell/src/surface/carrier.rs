@@ -26,6 +26,8 @@ pub struct Carrier {
     /// of the patch one parameter means nothing: it is NaN, and the other corners' count (see
     /// [`uv_at`](Carrier::uv_at)).
     pub uv: Vec<[DVec2; 3]>,
+    /// Whether the edge from corner k to corner k + 1 of each triangle is part of a feature; empty without any.
+    pub(super) walls: Vec<[bool; 3]>,
     /// Gradients of the three barycentric coordinates over each triangle, 1/m.
     gradients: Vec<[DVec3; 3]>,
 }
@@ -65,7 +67,8 @@ impl Carrier {
         for n in &mut normals {
             *n = n.normalize_or_zero();
         }
-        Carrier { points, triangles, neighbors, normals, patch, uv, gradients }
+        let walls = Vec::new();
+        Carrier { points, triangles, neighbors, normals, patch, uv, walls, gradients }
     }
 
     /// Position of `p` on the carrier.
@@ -114,6 +117,15 @@ impl Carrier {
     /// of `step` laid into the first triangle (its part along the normal counts for nothing). Stops at
     /// the boundary.
     pub fn trace(&self, from: &SurfacePoint, step: DVec3) -> SurfacePoint {
+        self.walk(from, step, &[])
+    }
+
+    /// As [`trace`](Carrier::trace), but features are not crossed: they stop the line as the boundary does.
+    pub fn trace_between_features(&self, from: &SurfacePoint, step: DVec3) -> SurfacePoint {
+        self.walk(from, step, &self.walls)
+    }
+
+    fn walk(&self, from: &SurfacePoint, step: DVec3, walls: &[[bool; 3]]) -> SurfacePoint {
         let mut p = *from;
         let mut v = step;
         let mut entered: Option<usize> = None;
@@ -145,6 +157,9 @@ impl Carrier {
             v *= 1.0 - time;
             let p_n = p.normalized();
             let edge = (k + 1) % 3;
+            if walls.get(p_n.triangle as usize).is_some_and(|walls| walls[edge]) {
+                return p_n;
+            }
             let Some((next, into, turned)) = self.cross(p_n.triangle, edge, v) else {
                 return p_n;
             };

@@ -1,7 +1,8 @@
-//! A chain of carrier edges with exact curves behind it: a boundary loop (closed), later also a feature.
+//! A chain of carrier edges with exact curves behind it: a boundary loop (closed), or a stretch of a feature
+//! between two fixed nodes (open) or round to where it began (closed).
 //!
 //! Places on a chain are given by their arc length `s` along the carrier's polyline, in metres, from the
-//! chain's first vertex. On a closed chain `s` wraps round.
+//! chain's first vertex. On a closed chain `s` wraps round; on an open one it ends at the ends.
 
 use super::carrier::NONE;
 use super::{Carrier, Curve, Surface, SurfacePoint};
@@ -25,23 +26,25 @@ pub struct Segment {
     pub edge: u8,
 }
 
-/// A boundary loop of the surface.
+/// A boundary loop of the surface, or a stretch of a feature.
 #[derive(Clone, Debug, Default)]
 pub struct Chain {
-    /// Carrier vertices in order, the first one not repeated at the end; surface to the left.
+    /// Carrier vertices in order; of a closed chain the first one is not repeated at the end. A boundary loop
+    /// has the surface to its left.
     pub vertices: Vec<u32>,
-    /// Segment k leads from vertex k to vertex k + 1 (the last one back to the first).
+    /// Segment k leads from vertex k to vertex k + 1 (on a closed chain the last one back to the first).
     pub segments: Vec<Segment>,
-    /// Arc length at each vertex, and the whole length at the end: `vertices.len() + 1` numbers.
+    /// Arc length at each vertex, and of a closed chain the whole length at the end.
     pub arc: Vec<f64>,
-    /// Places k in `vertices` that are corners, ascending.
+    /// Places k in `vertices` that are fixed nodes, ascending: corners, ends of features, anchors. The ends of
+    /// an open chain are fixed and not listed.
     pub corners: Vec<u32>,
 }
 
 /// A place on a chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChainPoint {
-    /// Index of the loop.
+    /// Index of the loop, or of the feature.
     pub chain: u32,
     /// Arc length in metres.
     pub s: f64,
@@ -50,12 +53,20 @@ pub struct ChainPoint {
 impl Chain {
     /// Whole length in metres, along the carrier.
     pub fn length(&self) -> f64 {
-        self.arc[self.vertices.len()]
+        self.arc.last().copied().unwrap_or(0.0)
     }
 
-    /// `s` brought into [0, length).
+    /// Whether it leads back to where it began.
+    pub fn is_closed(&self) -> bool {
+        self.segments.len() == self.vertices.len()
+    }
+
+    /// `s` brought into [0, length), or on an open chain into [0, length].
     pub fn wrap(&self, s: f64) -> f64 {
         let l = self.length();
+        if !self.is_closed() {
+            return s.clamp(0.0, l);
+        }
         let w = s - (s / l).floor() * l;
         if w < l { w } else { 0.0 }
     }
@@ -101,6 +112,9 @@ impl Chain {
         match surface.curves.get(seg.curve as usize) {
             // A vertex of the chain is exact as it stands: edges snap their ends to it.
             Some(_) if f == 0.0 => surface.carrier.points[self.vertices[k] as usize],
+            Some(_) if f == 1.0 => {
+                surface.carrier.points[self.vertices[(k + 1) % self.vertices.len()] as usize]
+            }
             Some(curve) => curve.point(seg.t[0] + (seg.t[1] - seg.t[0]) * f),
             None => self.xyz(&surface.carrier, s),
         }
@@ -109,7 +123,7 @@ impl Chain {
     /// Distance of `xyz` from the exact boundary curve of the segment at `s`.
     pub fn deviation(&self, surface: &Surface, s: f64, xyz: DVec3) -> f64 {
         let (k, f) = self.locate(s);
-        let n = self.segments.len();
+        let n = self.vertices.len();
         let vertex = |k: usize| surface.carrier.points[self.vertices[k % n] as usize].distance(xyz);
         // Vertices count as they stand: curves of neighbouring edges need not quite meet in them.
         let ends = vertex(k).min(vertex(k + 1));
@@ -142,7 +156,7 @@ impl Chain {
     }
 
     /// Directions of segment `k` at its two ends.
-    fn end_tangents(&self, carrier: &Carrier, curves: &[Curve], k: usize) -> [DVec3; 2] {
+    pub(super) fn end_tangents(&self, carrier: &Carrier, curves: &[Curve], k: usize) -> [DVec3; 2] {
         let a = carrier.points[self.vertices[k] as usize];
         let b = carrier.points[self.vertices[(k + 1) % self.vertices.len()] as usize];
         let seg = &self.segments[k];
@@ -156,11 +170,11 @@ impl Chain {
     }
 
     /// Fill in the arc lengths.
-    fn measure(&mut self, carrier: &Carrier) {
+    pub(super) fn measure(&mut self, carrier: &Carrier) {
         let n = self.vertices.len();
         self.arc = Vec::with_capacity(n + 1);
         let mut s = 0.0;
-        for k in 0..n {
+        for k in 0..self.segments.len() {
             self.arc.push(s);
             let (a, b) = (self.vertices[k], self.vertices[(k + 1) % n]);
             s += carrier.points[a as usize].distance(carrier.points[b as usize]);

@@ -103,7 +103,12 @@ impl Chart {
 
     /// Where a point of a loop is in the plane.
     pub fn on_loop(&self, surface: &Surface, c: &ChainPoint) -> DVec2 {
-        let chain = &surface.loops[c.chain as usize];
+        self.on_chain(&surface.loops, c)
+    }
+
+    /// Where a point of one of these chains is in the plane.
+    pub fn on_chain(&self, chains: &[Chain], c: &ChainPoint) -> DVec2 {
+        let chain = &chains[c.chain as usize];
         let (k, fraction) = chain.locate(c.s);
         let next = chain.vertices[(k + 1) % chain.vertices.len()];
         self.uv[chain.vertices[k] as usize].lerp(self.uv[next as usize], fraction)

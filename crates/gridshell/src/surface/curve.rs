@@ -19,6 +19,15 @@ pub enum Curve {
         /// Parameters at 0 and at 1.
         ends: [DVec2; 2],
     },
+    /// The feet on a patch of the points of a straight line, over [0, 1]: a stretch of a guide.
+    Guide {
+        /// The patch it lies on.
+        shape: Arc<Shape>,
+        /// The line's points at 0 and at 1.
+        line: [DVec3; 2],
+        /// Parameters of their feet.
+        near: [DVec2; 2],
+    },
 }
 
 impl Curve {
@@ -40,6 +49,13 @@ impl Curve {
                 let d = ends[1] - ends[0];
                 let j = shape.jet(ends[0] + d * t);
                 [j.point, j.du * d.x + j.dv * d.y]
+            }
+            Curve::Guide { shape, line, near } => {
+                let near = near.map(|uv| if uv.is_finite() { uv } else { near[0].max(near[1]) });
+                let (uv, foot) = shape.project(near[0].lerp(near[1], t), line[0].lerp(line[1], t));
+                let (n, d) = (shape.jet(uv).normal(), line[1] - line[0]);
+                // As if the patch were plane: near enough to search along.
+                [foot, d - n * d.dot(n)]
             }
         }
     }

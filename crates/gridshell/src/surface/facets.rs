@@ -1,6 +1,7 @@
 //! A surface that is a triangle mesh and nothing more: each triangle stays as it is.
 
 use super::chain::boundary_loops;
+use super::track::Tracks;
 use super::{Carrier, Surface};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -17,11 +18,14 @@ impl Surface {
             name: name.to_owned(),
             carrier,
             loops,
+            features: Vec::new(),
+            fixed: Vec::new(),
             shapes: Vec::new(),
             curves: Vec::new(),
             scale: Vec::new(),
             direction: Vec::new(),
             area,
+            tracks: Tracks::new(),
         }
     }
 }

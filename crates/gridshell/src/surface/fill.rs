@@ -12,6 +12,7 @@ use super::trim::{NEW, Node};
 use crate::math::trig;
 use glam::{DVec2, DVec3, IVec3};
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 
 /// Neighbours stay this share of the spacing apart. Triangles of a thinned set have edges of one to two
 /// times that.
@@ -168,12 +169,33 @@ impl Sizes {
 /// The points taken so far, by cells of space.
 struct Taken {
     cell: f64,
-    cells: HashMap<IVec3, Vec<(DVec3, DVec3, f64)>>,
+    cells: HashMap<IVec3, Vec<(DVec3, DVec3, f64)>, BuildHasherDefault<Mix>>,
+}
+
+/// Hashes the three numbers of a cell, quickly: nobody chooses them to collide.
+#[derive(Default)]
+struct Mix(u64);
+
+impl Hasher for Mix {
+    fn write(&mut self, bytes: &[u8]) {
+        for &b in bytes {
+            self.write_i32(i32::from(b));
+        }
+    }
+
+    fn write_i32(&mut self, x: i32) {
+        // An odd number with bits all over: 2^64 over the golden ratio.
+        self.0 = (self.0.rotate_left(29) ^ u64::from(x as u32)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    }
+
+    fn finish(&self) -> u64 {
+        self.0 ^ self.0 >> 32
+    }
 }
 
 impl Taken {
     fn new(cell: f64) -> Taken {
-        Taken { cell, cells: HashMap::new() }
+        Taken { cell, cells: HashMap::default() }
     }
 
     fn key(&self, p: DVec3) -> IVec3 {

@@ -82,7 +82,7 @@ impl PointDistance for Facet {
 
 /// Barycentric coordinates of the point of a triangle nearest to `x`: its foot in the plane if that lies
 /// inside, else the nearest of the three feet on the sides.
-fn nearest_in_triangle(p: [DVec3; 3], x: DVec3) -> [f64; 3] {
+pub(super) fn nearest_in_triangle(p: [DVec3; 3], x: DVec3) -> [f64; 3] {
     let n = (p[1] - p[0]).cross(p[2] - p[0]);
     let nn = n.length_squared();
     let inside =

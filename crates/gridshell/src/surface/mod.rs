@@ -12,11 +12,14 @@ pub mod carrier;
 pub mod chain;
 pub mod chart;
 pub mod curve;
+mod cut;
 pub mod direction;
 mod ear;
 pub mod facets;
+pub mod feature;
 mod fill;
 pub mod grading;
+mod guide;
 pub mod locate;
 pub mod model;
 pub mod nurbs;
@@ -31,6 +34,7 @@ pub mod shape;
 mod size;
 mod stretch;
 pub mod tessellate;
+mod track;
 mod trim;
 mod weave;
 
@@ -38,6 +42,7 @@ pub use brep::Brep;
 pub use carrier::{Carrier, SurfacePoint};
 pub use chain::{Chain, ChainPoint};
 pub use curve::Curve;
+pub use feature::Fixtures;
 pub use locate::Locator;
 pub use model::{Model, PolygonMesh, Sampling};
 pub use ruler::Ruler;
@@ -45,6 +50,7 @@ pub use shape::Shape;
 pub use tessellate::tessellate;
 
 use glam::DVec3;
+use track::Tracks;
 
 /// A design surface, ready to carry a grid.
 pub struct Surface {
@@ -54,6 +60,11 @@ pub struct Surface {
     pub carrier: Carrier,
     /// Boundary loops, closed, surface to their left seen from outside.
     pub loops: Vec<Chain>,
+    /// Stretches of features, cut at every fixed node on them. What ends them on the boundary is among the
+    /// corners of its loop, what ends them inside among `fixed`.
+    pub features: Vec<Chain>,
+    /// Carrier vertices inside that are fixed nodes: anchors, and ends, junctions and corners of features.
+    pub fixed: Vec<SurfacePoint>,
     /// Exact geometry of each patch, indexed by `carrier.patch`; empty where the input was a mesh.
     pub shapes: Vec<Shape>,
     /// Exact edge curves, indexed by the chains' segments; empty where the input was a mesh.
@@ -65,6 +76,8 @@ pub struct Surface {
     pub direction: Vec<DVec3>,
     /// Area in square metres, integrated over the exact patches.
     pub area: f64,
+    /// Carrier edges on model edges or features.
+    tracks: Tracks,
 }
 
 impl Surface {

@@ -4,6 +4,7 @@
 
 use super::chain::boundary_loops;
 use super::ear::split;
+use super::track::Tracks;
 use super::{Carrier, PolygonMesh, Sampling, Surface, cap};
 use crate::error::{Error, Result};
 use glam::DVec3;
@@ -36,11 +37,14 @@ impl PolygonMesh {
             name: self.name.clone(),
             carrier,
             loops,
+            features: Vec::new(),
+            fixed: Vec::new(),
             shapes: Vec::new(),
             curves: Vec::new(),
             scale: Vec::new(),
             direction: Vec::new(),
             area,
+            tracks: Tracks::new(),
         })
     }
 

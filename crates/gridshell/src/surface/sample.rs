@@ -69,7 +69,7 @@ fn stretch(curve: &Curve, range: [f64; 2], sampling: &Sampling, least: usize) ->
     };
     let spans = match curve {
         Curve::Nurbs(c) => (c.points.len() - c.degree) * (c.degree + 1),
-        Curve::OnShape(..) | Curve::UvLine { .. } => 16,
+        Curve::OnShape(..) | Curve::UvLine { .. } | Curve::Guide { .. } => 16,
     };
     let probes =
         (8.0 * rough / sampling.max_edge).max(4.0 * spans as f64).clamp(32.0, MAX_PROBES) as usize;

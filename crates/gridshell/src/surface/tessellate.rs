@@ -9,6 +9,7 @@ use super::orient::{self, Wing};
 use super::refine::Web;
 use super::shape::Shape;
 use super::stretch::Stretch;
+use super::track::{Track, Tracks};
 use super::trim::{Edges, NEW, Node, Polyline, Tracer, Trim};
 use super::{Carrier, Surface, area, chain, fill, sample, seam, weave};
 use crate::error::{Error, Result};
@@ -85,12 +86,8 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
         return Err(Error::Surface(format!("{}: there is no face with an area", brep.name)));
     }
     let carrier = Carrier::new(points, triangles, patch, uv);
-    let traces = traces(&polylines, &kept);
-    let curve_of = |a: u32, b: u32| {
-        let at = traces.binary_search_by_key(&(a.min(b), a.max(b)), |t| t.0).ok()?;
-        let (_, edge, [lo, hi]) = traces[at];
-        Some(if a < b { (edge, lo, hi) } else { (edge, hi, lo) })
-    };
+    let tracks = tracks(&polylines, &kept);
+    let curve_of = |a: u32, b: u32| tracks.curve_of(a, b);
     let mut loops = chain::boundary_loops(&carrier, PI, curve_of);
     for l in &mut loops {
         l.find_corners(&carrier, &curves, sampling.corner_angle);
@@ -99,11 +96,14 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
         name: brep.name.clone(),
         carrier,
         loops,
+        features: Vec::new(),
+        fixed: Vec::new(),
         shapes: brep.faces.iter().map(|f| f.shape.clone()).collect(),
         curves,
         scale: Vec::new(),
         direction: Vec::new(),
         area: pieces.iter().map(|p| p.area).sum(),
+        tracks,
     })
 }
 
@@ -256,19 +256,14 @@ fn compact(points: &mut Vec<DVec3>, triangles: &mut [[u32; 3]]) -> Vec<u32> {
     kept
 }
 
-/// A carrier edge (lower vertex first) on a model edge, with the curve's parameters at both.
-type Trace = ((u32, u32), u32, [f64; 2]);
-
-/// All carrier edges that lie on model edges, sorted.
-fn traces(polylines: &[Polyline], kept: &[u32]) -> Vec<Trace> {
-    let mut traces = Vec::new();
+/// All carrier edges that lie on model edges.
+fn tracks(polylines: &[Polyline], kept: &[u32]) -> Tracks {
+    let mut tracks = Tracks::new();
     for (e, line) in polylines.iter().enumerate() {
         for k in 1..line.t.len() {
-            let [a, b] = [k - 1, k].map(|i| (kept[line.vertices[i] as usize], line.t[i]));
-            let (lo, hi) = if a.0 < b.0 { (a, b) } else { (b, a) };
-            traces.push(((lo.0, hi.0), e as u32, [lo.1, hi.1]));
+            let [a, b] = [k - 1, k].map(|i| kept[line.vertices[i] as usize]);
+            tracks.lay(a, b, Track::of_curve(e as u32, [line.t[k - 1], line.t[k]]));
         }
     }
-    traces.sort_by_key(|t| (t.0, t.1));
-    traces
+    tracks
 }

@@ -18,9 +18,10 @@ fn random_bubbles(surface: &Surface) -> Bubbles {
         pieces.iter().map(|p| pack::boundary::member_count(p, LENGTH)).collect();
     let boundary = pack::boundary::place(surface, &pieces, &counts, 0.0);
     let count = pack::interior_count(surface, boundary.len(), LENGTH, 1.0);
-    let interior =
-        pack::scatter(surface, count, &boundary, 0.6 * LENGTH, &mut fastrand::Rng::with_seed(5));
-    Bubbles { boundary, interior }
+    let mut bubbles = Bubbles { boundary, ..Bubbles::default() };
+    let mut rng = fastrand::Rng::with_seed(5);
+    bubbles.interior = pack::scatter(surface, count, &bubbles.xyz(surface), 0.6 * LENGTH, &mut rng);
+    bubbles
 }
 
 fn settled(surface: &Surface, recipe: &Recipe) -> (Bubbles, Vec<ChainPoint>, pack::Report) {

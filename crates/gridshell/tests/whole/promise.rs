@@ -87,7 +87,7 @@ fn check_grid(stage: &str, grid: &Grid, surface: &Surface, edge_length: f64) {
     for (v, &xyz) in grid.xyz.iter().enumerate() {
         let off = surface.deviation(&locator.nearest(xyz).unwrap(), xyz);
         assert!(off <= close, "{stage}: node {v} at {xyz} is {off:e} m off the surface");
-        let inside = matches!(grid.places[v], Place::Interior(_));
+        let inside = !matches!(grid.places[v], Place::Boundary(_) | Place::Corner(_));
         assert_eq!(grid.mesh.is_boundary(v as u32), !inside, "{stage}: node {v} at {xyz}");
         if !inside {
             let at = locator.nearest_on_loops(xyz).unwrap();

@@ -34,6 +34,16 @@ fn a_bubble_start_does_not_depend_on_threads() {
 }
 
 #[test]
+fn what_is_fixed_does_not_depend_on_threads() {
+    let recipe = Recipe {
+        guides: vec![vec![[-9.0, -9.0, 0.0], [0.0, -8.0, -1.0], [9.0, 6.0, 0.7]]],
+        anchors: vec![[-8.0, 8.0, 0.0]],
+        ..quick(3.0)
+    };
+    check("saddle", &recipe);
+}
+
+#[test]
 fn the_method_as_printed_does_not_depend_on_threads() {
     check("saddle", &paper(3.0));
 }

@@ -62,6 +62,10 @@ fn is_folded(grid: &Grid, normals: &[DVec3], t: [u32; 3]) -> bool {
     (0..3).any(|k| {
         let (a, b) = (t[k], t[(k + 1) % 3]);
         let Some(c) = grid.mesh.right(a, b) else { return false };
+        if grid.mesh.is_feature_edge(a, b) {
+            // There the surface itself may turn as sharply as it likes.
+            return false;
+        }
         let other = panel_normal(grid, [b, a, c]);
         let other_surface = surface_normal(normals, [b, a, c]);
         // Away from the shared edge: that may run along a crease, where the surface turns as well.

@@ -1,17 +1,17 @@
-//! Bubbles on the boundary loops.
+//! Bubbles on the boundary loops and on features.
 
-use crate::surface::{ChainPoint, Ruler, Surface};
+use crate::surface::{Chain, ChainPoint, Ruler, Surface};
 
-/// A piece of a loop between two corners (or the whole loop).
+/// A piece of a loop between two corners (or the whole loop), or a whole feature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    /// Index of the loop.
+    /// Index of the loop, or of the feature.
     pub chain: u32,
     /// Arc length where it starts, metres.
     pub start: f64,
     /// Its length in metres, over the scale wanted on it where lengths are to vary.
     pub length: f64,
-    /// Fewest members on it, so that its loop keeps three nodes.
+    /// Fewest members on it, so that its loop keeps three nodes and no two members join the same nodes.
     pub least: usize,
 }
 
@@ -35,6 +35,47 @@ pub fn pieces(surface: &Surface) -> Vec<Piece> {
         }
     }
     pieces
+}
+
+/// All features, each a piece.
+pub fn feature_pieces(surface: &Surface) -> Vec<Piece> {
+    let ends = |chain: &Chain| {
+        let (first, last) = (chain.vertices[0], chain.vertices[chain.vertices.len() - 1]);
+        (first.min(last), first.max(last))
+    };
+    let twins = |chain: &Chain| {
+        surface.features.iter().filter(|c| !c.is_closed() && ends(c) == ends(chain)).count()
+    };
+    let piece = |(c, chain): (usize, &Chain)| {
+        let (first, last) = ends(chain);
+        let least = match (chain.is_closed() || first == last, twins(chain)) {
+            (true, _) => 3,
+            (false, 1) => 1,
+            // Several features from one fixed node to another.
+            _ => 2,
+        };
+        let length = Ruler::new(surface, chain).whole();
+        Piece { chain: c as u32, start: 0.0, length, least }
+    };
+    surface.features.iter().enumerate().map(piece).collect()
+}
+
+/// Bubbles at equal distances (over the scale wanted there) on features, but for the fixed ones at their ends: `counts[i]` members on piece i.
+pub fn place_on_features(surface: &Surface, pieces: &[Piece], counts: &[usize]) -> Vec<ChainPoint> {
+    let mut points = Vec::new();
+    for (piece, &count) in pieces.iter().zip(counts) {
+        let chain = &surface.features[piece.chain as usize];
+        let ruler = Ruler::new(surface, chain);
+        let first = usize::from(!chain.is_closed());
+        let step = piece.length / count as f64;
+        points.extend(
+            (first..count).map(|k| ChainPoint {
+                chain: piece.chain,
+                s: chain.wrap(ruler.arc(step * k as f64)),
+            }),
+        );
+    }
+    points
 }
 
 /// Number of members on a piece at this edge length.

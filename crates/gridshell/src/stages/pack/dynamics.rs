@@ -44,8 +44,7 @@ pub fn settle(
     job: &Job,
 ) -> Report {
     let carrier = &surface.carrier;
-    let fixed: Vec<SurfacePoint> =
-        bubbles.surface_points(surface)[..bubbles.boundary.len()].to_vec();
+    let fixed: Vec<SurfacePoint> = bubbles.surface_points(surface)[..bubbles.held()].to_vec();
     let mut bodies: Vec<Body> = bubbles
         .interior
         .iter()

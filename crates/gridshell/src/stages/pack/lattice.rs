@@ -1,6 +1,6 @@
 //! A lattice start: a triangular lattice laid on a chart of the surface.
 
-use super::boundary::{member_count, pieces, place};
+use super::boundary::{feature_pieces, member_count, pieces, place, place_on_features};
 use super::random::interior_count;
 use super::rim::Rim;
 use super::rows::{APART, HEIGHT, Rows, rows};
@@ -18,7 +18,7 @@ pub struct Lattice {
     pub offset: [f64; 2],
     /// No lattice node nearer to the boundary than this, over l0.
     pub margin: f64,
-    /// Members added to (or taken from) each boundary piece.
+    /// Members added to (or taken from) each boundary piece, then each feature.
     pub extra: Vec<i64>,
     /// Shift of the nodes of loops without corners, in members.
     pub slide: f64,
@@ -53,10 +53,14 @@ impl Lattice {
         };
         let counts: Vec<usize> = pieces.iter().zip(&self.extra).map(count).collect();
         let boundary = place(surface, &pieces, &counts, self.slide);
+        let lines = feature_pieces(surface);
+        let counts: Vec<usize> = lines.iter().zip(&self.extra[pieces.len()..]).map(count).collect();
+        let features = place_on_features(surface, &lines, &counts);
+        let fixed = surface.fixed.clone();
         let rows = rows(surface, chart, &boundary, self.angle, length, row_angle);
         let rim = self.rim(surface, chart, &boundary, &rows, length);
-        let wanted = interior_count(surface, boundary.len(), length, k_n) as f64;
-        let wanted = wanted - rows.bubbles.len() as f64;
+        let held = features.len() + fixed.len() + rows.bubbles.len();
+        let wanted = interior_count(surface, boundary.len(), length, k_n) as f64 - held as f64;
         let mut step = length;
         let mut interior = self.interior(surface, chart, &rim, step);
         // The strip kept clear along the border and the chart's distortion cost nodes: draw the lattice
@@ -66,7 +70,7 @@ impl Lattice {
             interior = self.interior(surface, chart, &rim, step);
         }
         interior.extend(rows.bubbles);
-        Bubbles { boundary, interior }
+        Bubbles { boundary, features, fixed, interior }
     }
 
     /// What the lattice keeps off: the border, or the row along it.
@@ -87,7 +91,8 @@ impl Lattice {
             let row = if rows.along[member] { HEIGHT } else { 0.0 };
             (row + self.margin) * length
         };
-        Rim::of_border_and(surface, chart, clear, &rows.uv, APART * length)
+        let inside = self.margin * length;
+        Rim::of_border_and(surface, chart, clear, inside, &rows.uv, APART * length)
     }
 
     /// Lattice points `step` apart inside the chart and off its boundary, in order of triangles.

@@ -1,10 +1,11 @@
 //! A random start: points spread evenly by chance over the surface's area.
 
-use crate::surface::{ChainPoint, Surface, SurfacePoint};
+use crate::surface::{Surface, SurfacePoint};
 use glam::DVec3;
 
 /// Number of interior bubbles for an edge length, Eq. 1 with the boundary and the Euler characteristic
-/// accounted for: n = k_n A / (2 A0) - n_b / 2 + chi (the perfect hexagon of 61 nodes asks for this).
+/// accounted for: n = k_n A / (2 A0) - n_b / 2 + chi (the perfect hexagon of 61 nodes asks for this); those
+/// on features and at anchors are among them.
 pub fn interior_count(surface: &Surface, boundary: usize, edge_length: f64, k_n: f64) -> usize {
     let triangle = 3f64.sqrt() / 4.0 * edge_length * edge_length;
     let chi = surface.euler_characteristic() as f64;
@@ -15,12 +16,13 @@ pub fn interior_count(surface: &Surface, boundary: usize, edge_length: f64, k_n:
 /// Draws of a point that keeps off the border, at most: a strip may have no such place.
 const MOST_DRAWS: usize = 50;
 
-/// `count` random points, spread evenly (for members of the lengths wanted) over the carrier's area but for those that would fall within `clear` metres
-/// of a boundary bubble: pressed against the border, they would stay there between two of its bubbles.
+/// `count` random points, spread evenly (for members of the lengths wanted) over the carrier's area but for those
+/// that would fall within `clear` metres of a bubble that is `held`: pressed against the border, they would stay
+/// there between two of its bubbles.
 pub fn scatter(
     surface: &Surface,
     count: usize,
-    boundary: &[ChainPoint],
+    held: &[DVec3],
     clear: f64,
     rng: &mut fastrand::Rng,
 ) -> Vec<SurfacePoint> {
@@ -32,8 +34,6 @@ pub fn scatter(
         sum += carrier.triangle_area(t) / (scale * scale);
         sums.push(sum);
     }
-    let rim: Vec<DVec3> =
-        boundary.iter().map(|c| surface.loops[c.chain as usize].xyz(carrier, c.s)).collect();
     let mut draw = || {
         let at = rng.f64() * sum;
         let triangle = sums.partition_point(|&s| s <= at).min(sums.len() - 1) as u32;
@@ -46,7 +46,7 @@ pub fn scatter(
     let near = |p: &SurfacePoint| {
         let xyz = carrier.xyz(p);
         let clear = clear * surface.scale_at(p);
-        rim.iter().any(|r| r.distance_squared(xyz) < clear * clear)
+        held.iter().any(|r| r.distance_squared(xyz) < clear * clear)
     };
     (0..count)
         .map(|_| {

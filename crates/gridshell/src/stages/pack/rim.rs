@@ -1,4 +1,4 @@
-//! What lattice points keep off: the chart's border and the rows along it.
+//! What lattice points keep off: the chart's border and the rows along it, features and anchors.
 
 use crate::surface::{Surface, chart::Chart};
 use glam::DVec2;
@@ -19,9 +19,14 @@ struct Segment {
 }
 
 impl Rim {
-    /// The border, kept clear by `clear(loop, arc length there)`.
-    pub fn of_border(surface: &Surface, chart: &Chart, clear: impl Fn(usize, f64) -> f64) -> Rim {
-        Rim::new(border(surface, chart, clear), &[], 0.0)
+    /// The border, kept clear by `clear(loop, arc length there)`, and what is fixed inside, by `inside`.
+    pub fn of_border(
+        surface: &Surface,
+        chart: &Chart,
+        clear: impl Fn(usize, f64) -> f64,
+        inside: f64,
+    ) -> Rim {
+        Rim::of_border_and(surface, chart, clear, inside, &[], 0.0)
     }
 
     /// The border as above, and `points` kept clear by `gap`.
@@ -29,10 +34,13 @@ impl Rim {
         surface: &Surface,
         chart: &Chart,
         clear: impl Fn(usize, f64) -> f64,
+        inside: f64,
         points: &[DVec2],
         gap: f64,
     ) -> Rim {
-        Rim::new(border(surface, chart, clear), points, gap)
+        let mut segments = border(surface, chart, clear);
+        segments.extend(fixed(surface, chart, inside));
+        Rim::new(segments, points, gap)
     }
 
     fn new(mut segments: Vec<Segment>, points: &[DVec2], gap: f64) -> Rim {
@@ -70,6 +78,21 @@ fn border(surface: &Surface, chart: &Chart, clear: impl Fn(usize, f64) -> f64) -
                 .push(Segment { ends, clear: clear(c, 0.5 * (chain.arc[k] + chain.arc[k + 1])) });
         }
     }
+    segments
+}
+
+/// Features and fixed points, all kept clear by the same.
+fn fixed(surface: &Surface, chart: &Chart, clear: f64) -> Vec<Segment> {
+    let mut segments = Vec::new();
+    for chain in &surface.features {
+        for k in 0..chain.segments.len() {
+            let next = (k + 1) % chain.vertices.len();
+            let ends = [k, next].map(|k| chart.uv[chain.vertices[k] as usize]);
+            segments.push(Segment { ends, clear });
+        }
+    }
+    let points = surface.fixed.iter().map(|p| chart.at(&surface.carrier, p));
+    segments.extend(points.map(|p| Segment { ends: [p; 2], clear }));
     segments
 }
 

@@ -43,7 +43,7 @@ pub fn rows(
         rows.along = vec![false; boundary.len()];
         return rows;
     };
-    let clear = Rim::of_border(surface, chart, |_, _| CLEAR * length);
+    let clear = Rim::of_border(surface, chart, |_, _| CLEAR * length, CLEAR * length);
     let mut kept: BTreeMap<[i64; 2], Vec<DVec2>> = BTreeMap::new();
     for nodes in boundary.chunk_by(|a, b| a.chain == b.chain) {
         let members: Vec<Member> =

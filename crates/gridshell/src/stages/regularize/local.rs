@@ -207,7 +207,11 @@ fn axes(state: &State, v: u32) -> SmallVec<[DVec3; 2]> {
             let chain = &state.surface.loops[c.chain as usize];
             SmallVec::from_slice(&[chain.tangent(&state.surface.carrier, c.s)])
         }
-        Place::Corner(_) => SmallVec::new(),
+        Place::Feature(c) => {
+            let chain = &state.surface.features[c.chain as usize];
+            SmallVec::from_slice(&[chain.tangent(&state.surface.carrier, c.s)])
+        }
+        Place::Corner(_) | Place::Fixed(_) => SmallVec::new(),
     }
 }
 

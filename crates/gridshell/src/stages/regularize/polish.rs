@@ -15,7 +15,7 @@ use smallvec::SmallVec;
 /// Rings of nodes that move with an operation.
 const RINGS: usize = 3;
 /// Steps of balancing round an operation.
-const STEPS: usize = 3;
+const STEPS: usize = 2;
 /// Panels below this shape are refused.
 const LEAST_SHAPE: f64 = 0.55;
 /// Rounds, each begun with the whole grid in balance.

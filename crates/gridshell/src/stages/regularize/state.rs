@@ -127,11 +127,16 @@ impl<'a> State<'a> {
         self.grid.mesh.try_flip(a, b, &mut self.undo)
     }
 
-    /// Split an edge at its middle (on the surface, or on the loop for a boundary edge).
+    /// Split an edge at its middle (on the surface, or on the loop or feature that it is part of).
     pub fn split(&mut self, a: u32, b: u32) -> Result<u32, Refusal> {
         let on_boundary = self.grid.mesh.is_boundary_edge(a, b);
-        let place =
-            if on_boundary { self.middle_on_loop(a, b) } else { self.middle_on_surface(a, b) };
+        let place = if on_boundary {
+            self.middle_on_loop(a, b)
+        } else if self.grid.mesh.is_feature_edge(a, b) {
+            self.grid.middle_on_feature(self.surface, a, b).ok_or(Refusal::Feature)?
+        } else {
+            self.middle_on_surface(a, b)
+        };
         let m = self.grid.mesh.try_split(a, b, &mut self.undo)?;
         let n = self.grid.mesh.slots();
         if self.grid.xyz.len() < n {
@@ -146,15 +151,19 @@ impl<'a> State<'a> {
         Ok(m)
     }
 
-    /// Collapse an edge; the end that is the more fixed one (corner, then boundary) stays, or else `a`, which
+    /// Collapse an edge; the end that is the more fixed one (pinned, then boundary, then on a feature) stays, or else `a`, which
     /// goes to the middle. Gives the end that stays.
     pub fn collapse(&mut self, a: u32, b: u32) -> Result<u32, Refusal> {
         let mesh = &self.grid.mesh;
-        let rank = |v: u32| (mesh.is_pinned(v), mesh.is_boundary(v));
+        let rank =
+            |v: u32| (mesh.is_pinned(v), mesh.is_boundary(v), !mesh.along_features(v).is_empty());
         let (keep, gone) = if rank(b) > rank(a) { (b, a) } else { (a, b) };
         let place = match (self.grid.places[keep as usize], mesh.is_boundary_edge(a, b)) {
             (Place::Interior(_), _) => self.middle_on_surface(keep, gone),
             (Place::Boundary(_), true) => self.middle_on_loop(keep, gone),
+            (Place::Feature(_), _) if mesh.is_feature_edge(a, b) => {
+                self.grid.middle_on_feature(self.surface, a, b).ok_or(Refusal::Feature)?
+            }
             (fixed, _) => fixed,
         };
         self.grid.mesh.try_collapse(keep, gone, &mut self.undo)?;
@@ -170,6 +179,10 @@ impl<'a> State<'a> {
     }
 
     fn middle_on_surface(&self, a: u32, b: u32) -> Place {
+        // Not from a feature: the place of a node there is on its left side, which may be the wrong one.
+        let on_feature =
+            |v: u32| matches!(self.grid.places[v as usize], Place::Feature(_) | Place::Fixed(_));
+        let (a, b) = if on_feature(a) && !on_feature(b) { (b, a) } else { (a, b) };
         let start = self.grid.places[a as usize].surface_point(self.surface);
         let half = (self.grid.xyz[b as usize] - self.grid.xyz[a as usize]) * 0.5;
         Place::Interior(self.surface.carrier.trace(&start, half))
@@ -179,7 +192,7 @@ impl<'a> State<'a> {
         let (a, b) = if self.grid.mesh.next_on_boundary(a) == Some(b) { (a, b) } else { (b, a) };
         let on_loop = |v: u32| match self.grid.places[v as usize] {
             Place::Boundary(c) | Place::Corner(c) => c,
-            Place::Interior(_) => unreachable!("boundary vertices have places on loops"),
+            _ => unreachable!("boundary vertices have places on loops"),
         };
         let (from, to) = (on_loop(a), on_loop(b));
         let chain = &self.surface.loops[from.chain as usize];
@@ -349,5 +362,101 @@ impl<'a> State<'a> {
         self.grid.places = old.iter().map(|&v| self.grid.places[v as usize]).collect();
         self.grid.xyz = old.iter().map(|&v| self.grid.xyz[v as usize]).collect();
         self.grid
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bubbles::Bubbles;
+    use crate::stages::{pack, triangulate};
+    use crate::surface::{Fixtures, Sampling, builtin};
+
+    const LENGTH: f64 = 0.7;
+
+    /// The flat hexagon with a guide from (-2, -1) to (2, 1.5) and an anchor at (0, -2).
+    fn fixed() -> Surface {
+        let sampling = Sampling { max_edge: 0.35, chord_error: 1e-3, corner_angle: 0.5 };
+        let model = builtin::model("hexagon").expect("built in");
+        let mut surface = model.surface(&sampling).expect("a surface");
+        let guide = vec![DVec3::new(-2.0, -1.0, 0.0), DVec3::new(2.0, 1.5, 0.0)];
+        let wanted = Fixtures {
+            crease_angle: None,
+            guides: &[guide],
+            anchors: &[DVec3::new(0.0, -2.0, 0.0)],
+            corner_angle: 0.5,
+            edge_length: LENGTH,
+        };
+        surface.fix(&wanted).expect("guide and anchor are on the surface");
+        surface
+    }
+
+    fn grid(surface: &Surface) -> Grid {
+        let counts = |pieces: &[pack::boundary::Piece]| -> Vec<usize> {
+            pieces.iter().map(|p| pack::boundary::member_count(p, LENGTH)).collect()
+        };
+        let pieces = pack::boundary::pieces(surface);
+        let boundary = pack::boundary::place(surface, &pieces, &counts(&pieces), 0.0);
+        let lines = pack::boundary::feature_pieces(surface);
+        let features = pack::boundary::place_on_features(surface, &lines, &counts(&lines));
+        let fixed = surface.fixed.clone();
+        let mut bubbles = Bubbles { boundary, features, fixed, interior: Vec::new() };
+        let held = bubbles.xyz(surface);
+        let mut rng = fastrand::Rng::with_seed(3);
+        bubbles.interior = pack::scatter(surface, 80, &held, 0.5 * LENGTH, &mut rng);
+        triangulate::triangulate(surface, &bubbles).expect("a manifold").0
+    }
+
+    /// The nodes on the guide are joined by its members in order, and the anchor is where it was.
+    fn assert_kept(grid: &Grid) {
+        let (start, end) = (DVec3::new(-2.0, -1.0, 0.0), DVec3::new(2.0, 1.5, 0.0));
+        let along = (end - start).normalize();
+        let on: Vec<u32> =
+            grid.mesh.vertices().filter(|&v| !grid.mesh.along_features(v).is_empty()).collect();
+        let s = |v: u32| (grid.xyz[v as usize] - start).dot(along);
+        let mut sorted = on.clone();
+        sorted.sort_by(|&a, &b| s(a).total_cmp(&s(b)));
+        for &v in &sorted {
+            let x = grid.xyz[v as usize];
+            assert!((start + along * s(v)).distance(x) < 1e-9, "{x} is off the guide");
+        }
+        for w in sorted.windows(2) {
+            assert!(grid.mesh.is_feature_edge(w[0], w[1]), "{} {}", s(w[0]), s(w[1]));
+        }
+        let ends = [sorted[0], sorted[sorted.len() - 1]].map(|v| grid.xyz[v as usize]);
+        assert!(ends[0].distance(start) < 1e-12 && ends[1].distance(end) < 1e-12);
+        let anchor = DVec3::new(0.0, -2.0, 0.0);
+        assert!(grid.mesh.vertices().any(|v| grid.xyz[v as usize].distance(anchor) < 1e-12));
+    }
+
+    #[test]
+    fn any_edits_and_moves_keep_guides_and_anchors() {
+        let surface = fixed();
+        let mut state = State::new(&surface, grid(&surface), LENGTH, 0.9);
+        assert_kept(&state.grid);
+        let mut rng = fastrand::Rng::with_seed(4);
+        for _ in 0..3000 {
+            let alive: Vec<u32> = state.grid.mesh.vertices().collect();
+            let a = alive[rng.usize(..alive.len())];
+            let ring = state.grid.mesh.ring(a);
+            let b = ring[rng.usize(..ring.len())];
+            let done = match rng.u8(..3) {
+                0 => state.flip(a, b).is_ok(),
+                1 => alive.len() < 250 && state.split(a, b).is_ok(),
+                _ => alive.len() > 80 && state.collapse(a, b).is_ok(),
+            };
+            if done {
+                let touched = state.touched();
+                let alive = state.region(&touched, 0);
+                state.relax(&alive, 2);
+            }
+            if rng.u8(..3) == 0 {
+                state.roll_back()
+            } else {
+                state.commit()
+            }
+            state.grid.mesh.check().expect("valid");
+            assert_kept(&state.grid);
+        }
     }
 }

@@ -62,13 +62,17 @@ impl Intrinsic {
         m
     }
 
-    /// Split the boundary edge from `a` to `b` at `share` of its length.
-    pub fn split_boundary(&mut self, a: u32, b: u32, share: f64) -> u32 {
+    /// Split the edge from `a` to `b`, on the boundary or on a feature, at `share` of its length.
+    pub fn split(&mut self, a: u32, b: u32, share: f64) -> u32 {
         let whole = self.length(a, b);
         let c = self.mesh.left(a, b).expect("the surface lies to the left of its loops");
         let apex = self.apex(a, b, c);
-        let m = self.mesh.try_split(a, b, &mut self.undo).expect("the boundary edge exists");
+        let across = self.mesh.right(a, b).map(|d| (d, self.apex(a, b, d)));
+        let m = self.mesh.try_split(a, b, &mut self.undo).expect("the edge exists");
         self.undo.clear();
+        if let Some((d, apex)) = across {
+            self.set_length(m, d, apex.distance(DVec2::new(whole * share, 0.0)));
+        }
         self.forget_length(a, b);
         self.set_length(a, m, whole * share);
         self.set_length(m, b, whole * (1.0 - share));
@@ -155,6 +159,9 @@ impl Intrinsic {
 
     /// Flip edges away from `v` until it hangs by three (inside) or two or three (boundary), then take it.
     fn remove(&mut self, v: u32) -> bool {
+        if let &[p, q] = self.mesh.along_features(v) {
+            return self.remove_from_feature(v, p, q);
+        }
         while self.mesh.degree(v) > 3 {
             let ring: SmallVec<[u32; 8]> = self.mesh.ring(v).into();
             let shortest = |reflex: f64| {
@@ -186,6 +193,51 @@ impl Intrinsic {
             self.suspects.push((ring[i], ring[(i + 1) % ring.len()]));
         }
         true
+    }
+
+    /// Flip edges away from `v`, which is on a feature between `p` and `q`, until it hangs by one on either side,
+    /// then take it: the feature leads from `p` to `q`.
+    fn remove_from_feature(&mut self, v: u32, p: u32, q: u32) -> bool {
+        for (from, to) in [(p, q), (q, p)] {
+            loop {
+                let side = self.between(v, from, to);
+                if side.len() <= 1 {
+                    break;
+                }
+                let shortest = |reflex: f64| {
+                    let lengths =
+                        side.iter().filter_map(|&w| Some((self.flipped_length(v, w, reflex)?, w)));
+                    lengths.min_by(|x, y| x.0.total_cmp(&y.0))
+                };
+                match shortest(0.0).or_else(|| shortest(SADDLE)) {
+                    Some((_, w)) if self.flip(v, w) => {}
+                    _ => return false,
+                }
+            }
+        }
+        let ring: SmallVec<[u32; 8]> = self.mesh.ring(v).into();
+        let along = self.length(v, p) + self.length(v, q);
+        if self.mesh.try_collapse(q, v, &mut self.undo).is_err() {
+            return false;
+        }
+        self.undo.clear();
+        for &w in &ring {
+            self.forget_length(v, w);
+        }
+        // The feature between two nodes is one member, however it bends.
+        self.set_length(p, q, along);
+        for i in 0..ring.len() {
+            self.suspects.push((ring[i], ring[(i + 1) % ring.len()]));
+        }
+        true
+    }
+
+    /// The neighbours of `v` counter-clockwise after `from` and before `to`.
+    fn between(&self, v: u32, from: u32, to: u32) -> SmallVec<[u32; 8]> {
+        let ring = self.mesh.ring(v);
+        let at = self.mesh.position(v, from).expect("features join neighbours");
+        let onward = (1..ring.len()).map(|i| ring[(at + i) % ring.len()]);
+        onward.take_while(|&w| w != to).collect()
     }
 
     /// Length of the edge that flipping (v, w) would make; None unless the two triangles form a convex

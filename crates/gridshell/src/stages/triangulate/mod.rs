@@ -16,7 +16,7 @@ use crate::bubbles::Bubbles;
 use crate::error::Result;
 use crate::grid::{Grid, Place};
 use crate::mesh::Mesh;
-use crate::surface::{Surface, SurfacePoint};
+use crate::surface::{Chain, ChainPoint, Surface, SurfacePoint};
 use glam::DVec3;
 use intrinsic::Intrinsic;
 
@@ -28,7 +28,8 @@ pub struct Report {
 }
 
 /// The Delaunay grid of `bubbles` on `surface`: boundary bubbles become boundary nodes (corners fixed) and
-/// come first, in order; then the interior ones, in order; then nodes added to keep the topology.
+/// come first, in order; then those on features, the fixed and the interior ones, in order; then nodes added to
+/// keep the topology. Members follow the features whether or not they are Delaunay.
 ///
 /// # Errors
 /// [`Error::Surface`](crate::Error::Surface) when the carrier is not a manifold.
@@ -39,8 +40,19 @@ pub fn triangulate(surface: &Surface, bubbles: &Bubbles) -> Result<(Grid, Report
         &carrier.points,
     );
     let mut nodes: Vec<(u32, Place)> = Vec::with_capacity(bubbles.len());
+    for chain in &surface.features {
+        for k in 0..chain.segments.len() {
+            tri.mesh
+                .mark_feature(chain.vertices[k], chain.vertices[(k + 1) % chain.vertices.len()])?;
+        }
+    }
     let interior = insert_interior(&mut tri, surface, &bubbles.interior);
-    insert_boundary(&mut tri, surface, bubbles, &mut nodes);
+    insert_on_chains(&mut tri, &surface.loops, &bubbles.boundary, Place::Boundary, &mut nodes);
+    insert_on_chains(&mut tri, &surface.features, &bubbles.features, Place::Feature, &mut nodes);
+    for p in &bubbles.fixed {
+        let corner = p.bary.iter().position(|&b| b == 1.0).expect("fixed points are vertices");
+        nodes.push((carrier.triangles[p.triangle as usize][corner], Place::Fixed(*p)));
+    }
     nodes.extend(interior.into_iter().zip(bubbles.interior.iter().map(|&p| Place::Interior(p))));
 
     let mut place: Vec<Option<(u32, Place)>> = vec![None; tri.mesh.slots()];
@@ -61,8 +73,11 @@ pub fn triangulate(surface: &Surface, bubbles: &Bubbles) -> Result<(Grid, Report
     let number = |v: u32| place[v as usize].expect("only nodes are left").0;
     let triangles: Vec<[u32; 3]> = tri.mesh.triangles().map(|t| t.map(number)).collect();
     let mut mesh = Mesh::from_triangles(nodes.len(), &triangles)?;
-    for (i, (_, place)) in nodes.iter().enumerate() {
-        mesh.pin(i as u32, matches!(place, Place::Corner(_)));
+    for (i, (v, place)) in nodes.iter().enumerate() {
+        mesh.pin(i as u32, place.is_fixed());
+        for &w in tri.mesh.along_features(*v) {
+            mesh.mark_feature(i as u32, number(w))?;
+        }
     }
     let places: Vec<Place> = nodes.into_iter().map(|(_, p)| p).collect();
     let xyz = places.iter().map(|p| p.xyz(surface)).collect();
@@ -124,16 +139,17 @@ fn least_share(corners: &[[f64; 3]; 3], p: [f64; 3]) -> f64 {
 /// Least share of a carrier edge that is split off.
 const HAIR: f64 = 1e-6;
 
-/// Split the carrier's boundary edges at the boundary bubbles.
-fn insert_boundary(
+/// Split the carrier's edges on these chains at the bubbles there.
+fn insert_on_chains(
     tri: &mut Intrinsic,
-    surface: &Surface,
-    bubbles: &Bubbles,
+    chains: &[Chain],
+    points: &[ChainPoint],
+    place: fn(ChainPoint) -> Place,
     nodes: &mut Vec<(u32, Place)>,
 ) {
     let mut last: Option<(u32, usize, u32, f64)> = None;
-    for point in &bubbles.boundary {
-        let chain = &surface.loops[point.chain as usize];
+    for point in points {
+        let chain = &chains[point.chain as usize];
         let (k, fraction) = chain.locate(point.s);
         let count = chain.vertices.len();
         let (start, end) = (chain.vertices[k], chain.vertices[(k + 1) % count]);
@@ -148,9 +164,9 @@ fn insert_boundary(
             _ => (start, 0.0),
         };
         let share = ((fraction - done) / (1.0 - done)).clamp(HAIR, 1.0 - HAIR);
-        let m = tri.split_boundary(from, end, share);
+        let m = tri.split(from, end, share);
         last = Some((point.chain, k, m, fraction));
-        nodes.push((m, Place::Boundary(*point)));
+        nodes.push((m, place(*point)));
     }
 }
 
@@ -171,9 +187,16 @@ fn vertex_places(surface: &Surface) -> Vec<Place> {
     }
     for (c, chain) in surface.loops.iter().enumerate() {
         for (k, &v) in chain.vertices.iter().enumerate() {
-            let at = crate::surface::ChainPoint { chain: c as u32, s: chain.arc[k] };
+            let at = ChainPoint { chain: c as u32, s: chain.arc[k] };
             let corner = chain.corners.binary_search(&(k as u32)).is_ok();
             places[v as usize] = if corner { Place::Corner(at) } else { Place::Boundary(at) };
+        }
+    }
+    for (c, chain) in surface.features.iter().enumerate() {
+        let inner = usize::from(!chain.is_closed());
+        for k in inner..chain.vertices.len() - inner {
+            let at = ChainPoint { chain: c as u32, s: chain.arc[k] };
+            places[chain.vertices[k] as usize] = Place::Feature(at);
         }
     }
     places

@@ -14,7 +14,7 @@ use glam::DVec2;
 /// the boundary polygons cross or leave some outside.
 pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Option<Grid> {
     let mut points: Vec<DVec2> =
-        bubbles.boundary.iter().map(|c| chart.on_loop(surface, c)).collect();
+        bubbles.boundary.iter().map(|c| chart.on_chain(&surface.loops, c)).collect();
     let mut rims = Vec::with_capacity(points.len());
     let mut first = 0;
     for same in bubbles.boundary.chunk_by(|a, b| a.chain == b.chain) {
@@ -22,7 +22,12 @@ pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Optio
         rims.extend((0..n).map(|k| [first + k, first + (k + 1) % n]));
         first += n;
     }
-    points.extend(bubbles.interior.iter().map(|p| chart.at(&surface.carrier, p)));
+    points.extend(bubbles.features.iter().map(|c| chart.on_chain(&surface.features, c)));
+    let along = bubbles.along_features(surface);
+    // A line used twice, there and back, has the inside on both its sides.
+    rims.extend(along.iter().flat_map(|&pair| [pair; 2]));
+    let inside = bubbles.fixed.iter().chain(&bubbles.interior);
+    points.extend(inside.map(|p| chart.at(&surface.carrier, p)));
     let triangles = delaunay::triangles(&points, &rims).ok()?;
     let mut mesh = Mesh::from_triangles(points.len(), &triangles).ok()?;
     if mesh.euler_characteristic() != surface.euler_characteristic() {
@@ -34,12 +39,19 @@ pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Optio
         if corner { Place::Corner(*c) } else { Place::Boundary(*c) }
     };
     let inside = bubbles.interior.iter().map(|&p| Place::Interior(p));
-    let places: Vec<Place> = bubbles.boundary.iter().map(on_loop).chain(inside).collect();
+    let on_feature = bubbles.features.iter().map(|&c| Place::Feature(c));
+    let fixed = bubbles.fixed.iter().map(|&p| Place::Fixed(p));
+    let lines = bubbles.boundary.iter().map(on_loop).chain(on_feature);
+    let places: Vec<Place> = lines.chain(fixed).chain(inside).collect();
     for (v, place) in places.iter().enumerate() {
-        if mesh.is_boundary(v as u32) == matches!(place, Place::Interior(_)) {
+        let on_boundary = matches!(place, Place::Boundary(_) | Place::Corner(_));
+        if mesh.is_boundary(v as u32) != on_boundary {
             return None;
         }
-        mesh.pin(v as u32, matches!(place, Place::Corner(_)));
+        mesh.pin(v as u32, place.is_fixed());
+    }
+    for [a, b] in along {
+        mesh.mark_feature(a, b).ok()?;
     }
     let xyz = places.iter().map(|p| p.xyz(surface)).collect();
     Some(Grid { mesh, places, xyz })
