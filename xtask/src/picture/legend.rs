@@ -1,11 +1,9 @@
 //! What the colours and the marks mean, at the foot of a picture: lengths over l0, degrees.
 
-use super::sheet::{FULL, Sheet, colour};
+use super::sheet::{FULL, STEPS, Sheet, colour};
 
 /// Width and height of the colour scale, pixels.
 const SCALE: [f64; 2] = [120.0, 7.0];
-/// Steps of colour in it.
-const STEPS: u32 = 24;
 /// Side of the raster that characters are drawn on, pixels, and their distance in steps of it.
 const RASTER: f64 = 1.8;
 const ADVANCE: f64 = 5.5;
@@ -18,10 +16,10 @@ const RADIUS: f64 = 4.5;
 pub fn draw(sheet: &mut Sheet) {
     let [left, ground] = sheet.foot();
     let base = ground - 6.0 * RASTER - 5.0;
-    for k in 0..STEPS {
-        let [from, to] = [k, k + 1].map(|k| f64::from(k) / f64::from(STEPS));
-        let [x, y] = [from, to].map(|f| left + f * SCALE[0]);
-        let length = 1.0 + FULL * (from + to - 1.0);
+    let fields = 2 * u32::from(STEPS) + 1;
+    for k in 0..fields {
+        let [x, y] = [k, k + 1].map(|k| left + SCALE[0] * f64::from(k) / f64::from(fields));
+        let length = 1.0 + FULL * (f64::from(k) / f64::from(STEPS) - 1.0);
         let top = base - SCALE[1];
         sheet.fill(&[[x, base], [y, base], [y, top], [x, top]], colour(length));
     }

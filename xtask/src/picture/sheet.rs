@@ -19,6 +19,8 @@ const WIDTH: f64 = 0.075;
 const MOST: f64 = 9.0;
 /// Deviation from l0 at which the colours are full.
 pub const FULL: f64 = 0.2;
+/// Steps of colour to either side.
+pub const STEPS: u8 = 10;
 /// Colours of short, right and long members.
 const SHORT: [f64; 3] = [0.13, 0.38, 0.75];
 const RIGHT: [f64; 3] = [0.62, 0.63, 0.62];
@@ -57,7 +59,9 @@ impl Sheet {
     /// Fill a panel.
     pub fn panel(&mut self, corners: [[f64; 3]; 3], brightness: f64) {
         let corners = corners.map(|p| self.pixel(p));
-        self.fill(&corners, [brightness; 3]);
+        // Rims that are not smoothed leave no gaps between pieces.
+        let paint = Paint { anti_alias: false, ..paint([brightness; 3]) };
+        self.area(&corners, &paint);
     }
 
     /// Draw a member of this length over l0.
@@ -94,12 +98,16 @@ impl Sheet {
 
     /// Fill a polygon of pixels.
     pub fn fill(&mut self, points: &[[f64; 2]], rgb: [f64; 3]) {
+        self.area(points, &paint(rgb));
+    }
+
+    fn area(&mut self, points: &[[f64; 2]], paint: &Paint) {
         let mut path = PathBuilder::new();
         trace(&mut path, points);
         path.close();
         let Some(path) = path.finish() else { return };
         let rule = FillRule::Winding;
-        self.pixels.fill_path(&path, &paint(rgb), rule, Transform::identity(), None);
+        self.pixels.fill_path(&path, paint, rule, Transform::identity(), None);
     }
 
     /// Left end of the legend's ground line, pixels.
@@ -109,7 +117,10 @@ impl Sheet {
 
     /// Write the picture.
     pub fn save(&self, path: &Path) -> Result<(), String> {
-        file::write(path, [self.pixels.width(), self.pixels.height()], self.pixels.data())
+        let steps = i32::from(STEPS);
+        let inks: Vec<[f64; 3]> = (-steps..=steps).map(ink).collect();
+        let size = [self.pixels.width(), self.pixels.height()];
+        file::write(path, size, self.pixels.data(), &inks)
     }
 
     fn pixel(&self, [x, y, _]: [f64; 3]) -> [f64; 2] {
@@ -135,9 +146,14 @@ fn trace(path: &mut PathBuilder, points: &[[f64; 2]]) {
 
 /// The colour of a member of this length over l0.
 pub fn colour(length: f64) -> [f64; 3] {
-    let excess = length - 1.0;
-    let end = if excess < 0.0 { SHORT } else { LONG };
-    let share = (excess.abs() / FULL).min(1.0);
+    let steps = f64::from(STEPS);
+    ink(((length - 1.0) / FULL * steps).round().clamp(-steps, steps) as i32)
+}
+
+/// The colours of members, from the shortest (-STEPS) to the longest (STEPS).
+fn ink(step: i32) -> [f64; 3] {
+    let end = if step < 0 { SHORT } else { LONG };
+    let share = f64::from(step.abs()) / f64::from(STEPS);
     [0, 1, 2].map(|k| RIGHT[k] + share * (end[k] - RIGHT[k]))
 }
 

@@ -10,7 +10,7 @@ const MAJOR: f64 = 10.0;
 /// Radius of the tube, metres.
 const MINOR: f64 = 4.0;
 /// Where pieces begin round the axis; the doorway is the first one. Degrees.
-const ROUND_AXIS: [f64; 5] = [-18.0, 18.0, 126.0, 234.0, 342.0];
+const ROUND_AXIS: [f64; 5] = [-138.0, -102.0, 6.0, 114.0, 222.0];
 /// Where pieces begin round the tube; the doorway is the first one. Degrees.
 const ROUND_TUBE: [f64; 5] = [-30.0, 40.0, 140.0, 235.0, 330.0];
 
