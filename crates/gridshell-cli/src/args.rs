@@ -58,6 +58,12 @@ pub struct Generate {
     /// What the border is worth against the lines inside: 0 (one lattice, cut off) to 1 (rows along every border).
     #[arg(long, value_name = "0..1", allow_negative_numbers = true)]
     pub border: Option<f64>,
+    /// How much work to put in: `draft`, `standard` or `best`.
+    #[arg(long, value_name = "LEVEL")]
+    pub effort: Option<String>,
+    /// Grids made side by side, of which the best is kept.
+    #[arg(long, value_name = "N")]
+    pub candidates: Option<usize>,
     /// Method: `default`, or `paper` for the method as printed.
     #[arg(short, long, value_name = "NAME")]
     pub method: Option<String>,

@@ -23,6 +23,10 @@ pub fn from_args(args: &Generate) -> Result<Recipe, Failure> {
     if let Some(seed) = args.seed {
         recipe.seed = seed;
     }
+    if let Some(effort) = &args.effort {
+        recipe.effort = effort.parse()?;
+    }
+    recipe.candidates = args.candidates.or(recipe.candidates);
     if let Some(angle) = args.feature_angle {
         recipe.feature_angle_deg = angle;
     }

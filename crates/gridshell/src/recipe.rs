@@ -22,6 +22,11 @@ pub struct Recipe {
     pub symmetry: Symmetry,
     /// Seed of every random choice.
     pub seed: u64,
+    /// How much work to put in.
+    pub effort: Effort,
+    /// Grids made side by side, of which the one of highest merit is kept; None: as many as suit the effort and
+    /// the number of nodes.
+    pub candidates: Option<usize>,
     /// Boundary vertices where the boundary turns by more than this are corners (fixed nodes), degrees.
     pub corner_angle_deg: f64,
     /// Edges where the surface turns by more than this are creases that members follow, degrees; 180 finds none.
@@ -232,6 +237,19 @@ impl From<Symmetry> for String {
 /// A grid of more turns has too narrow parts.
 const MOST_TURNS: u32 = 12;
 
+/// How much work to put into a grid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Effort {
+    /// Quick, to choose the rest by: few candidates, no polish.
+    Draft,
+    /// What a grid is usually worth.
+    #[default]
+    Standard,
+    /// Twice the candidates and three times the polish.
+    Best,
+}
+
 /// How the bubbles start and settle (Sections 4.1 and 4.2).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -336,6 +354,21 @@ pub struct Measure {
     pub lambda: f64,
 }
 
+impl std::str::FromStr for Effort {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Effort> {
+        match name {
+            "draft" => Ok(Effort::Draft),
+            "standard" => Ok(Effort::Standard),
+            "best" => Ok(Effort::Best),
+            _ => {
+                Err(Error::Option(format!("no effort {name:?}; there are: draft, standard, best")))
+            }
+        }
+    }
+}
+
 impl Default for Recipe {
     fn default() -> Self {
         Recipe {
@@ -345,6 +378,8 @@ impl Default for Recipe {
             direction: Direction::Any,
             symmetry: Symmetry::None,
             seed: 1,
+            effort: Effort::Standard,
+            candidates: None,
             corner_angle_deg: 30.0,
             feature_angle_deg: 40.0,
             guides: Vec::new(),
@@ -496,6 +531,9 @@ impl Recipe {
         positive("pack.settled", pack.settled)?;
         within("pack.draws", pack.draws as f64, 1.0, 1e6)?;
 
+        if let Some(candidates) = self.candidates {
+            within("candidates", candidates as f64, 1.0, 1e3)?;
+        }
         within("regularize.node_range", self.regularize.node_range, 0.0, 1.0)?;
         within("regularize.candidates", self.regularize.candidates as f64, 1.0, 1e4)?;
         within("relax.straightness", self.relax.straightness, 0.0, 100.0)?;

@@ -107,7 +107,8 @@ pub fn relax(
     let relaxed: Vec<Winner> = finalists
         .into_par_iter()
         .flat_map_iter(|c| {
-            let ends = if recipe.relax.method == RelaxMethod::Fluent { &ENDS[..] } else { &ENDS[..1] };
+            let several = recipe.relax.method == RelaxMethod::Fluent && c.heats > 0;
+            let ends = if several { &ENDS[..] } else { &ENDS[..1] };
             ends.iter().map(move |end| {
                 let mut own = own_recipe(recipe, c.start);
                 own.border *= end[0];

@@ -7,7 +7,7 @@
 //! from draw to draw. Their irregular nodes stand along the border, some tenths of the square root of the
 //! count, each with room about it: a few hundred trials for each do what thousands do in a small grid.
 
-use crate::recipe::{Recipe, RegularizeMethod};
+use crate::recipe::{Effort, Recipe, RegularizeMethod};
 
 /// Up to so many nodes the recipe's counts hold in full.
 const FULL: f64 = 2000.0;
@@ -58,7 +58,39 @@ pub fn budgeted(recipe: &Recipe, nodes: f64) -> Recipe {
     // border grows.
     let most = regularize.most_trials as f64 * (nodes / (20.0 * FULL)).sqrt().max(1.0);
     regularize.most_trials = most as usize;
+    match recipe.effort {
+        Effort::Draft => draft(&mut recipe),
+        Effort::Standard => {}
+        Effort::Best => best(&mut recipe),
+    }
+    if let Some(candidates) = recipe.candidates {
+        recipe.regularize.candidates = candidates;
+        recipe.pack.draws = recipe.pack.draws.max(candidates);
+        if let Some([through, _]) = recipe.regularize.heats.first_mut() {
+            *through = candidates;
+        }
+    }
     recipe
+}
+
+/// No polish, and few of everything else.
+fn draft(recipe: &mut Recipe) {
+    recipe.pack.draws = recipe.pack.draws.min(4);
+    recipe.regularize.candidates = recipe.regularize.candidates.min(2);
+    recipe.regularize.trials = recipe.regularize.trials.min(150);
+    recipe.regularize.heats.clear();
+}
+
+/// Twice the candidates, and three times the polish of each.
+fn best(recipe: &mut Recipe) {
+    recipe.pack.draws *= 2;
+    let regularize = &mut recipe.regularize;
+    regularize.candidates *= 2;
+    regularize.most_polish *= 3;
+    for [through, trials] in &mut regularize.heats {
+        *through *= 2;
+        *trials *= 3;
+    }
 }
 
 /// Longest carrier edges over l0 for a grid of about `nodes` nodes.
@@ -96,6 +128,16 @@ mod tests {
     fn method_as_printed_packs_until_it_settles() {
         let paper = Recipe::named("paper").unwrap();
         assert_eq!(budgeted(&paper, 1e5).pack.max_steps, paper.pack.max_steps);
+    }
+
+    #[test]
+    fn as_many_candidates_run_as_are_asked_for() {
+        for effort in [Effort::Draft, Effort::Standard, Effort::Best] {
+            let recipe = Recipe { candidates: Some(7), effort, ..Recipe::default() };
+            let budget = budgeted(&recipe, 1e4);
+            assert_eq!(budget.regularize.candidates, 7);
+            assert!(budget.pack.draws >= 7);
+        }
     }
 
     #[test]

@@ -188,7 +188,7 @@ impl Whole<'_> {
             Some(turn) => {
                 self.match_cuts(turn, &mut xyz, &mut on, &mut panels);
                 outside.resize(xyz.len(), false);
-                self.partners(turn, &mut xyz, &on)
+                Self::partners(turn, &mut xyz, &on)
             }
         };
         let motions = self.group.motions();
@@ -286,7 +286,7 @@ impl Whole<'_> {
     }
 
     /// Of each node on the second cut, the one on the first whose image it is; puts it exactly there.
-    fn partners(&self, turn: &Motion, xyz: &mut [DVec3], on: &[[bool; 2]]) -> Vec<Option<u32>> {
+    fn partners(turn: &Motion, xyz: &mut [DVec3], on: &[[bool; 2]]) -> Vec<Option<u32>> {
         let first: Vec<usize> = (0..xyz.len()).filter(|&v| on[v] == [true, false]).collect();
         let mut partner = vec![None; xyz.len()];
         for w in (0..xyz.len()).filter(|&w| on[w] == [false, true]) {

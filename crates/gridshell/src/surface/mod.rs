@@ -5,12 +5,12 @@
 //! exact curves behind them. Metres throughout.
 
 mod area;
+pub mod bends;
 pub mod brep;
 pub mod builtin;
 mod cap;
 pub mod carrier;
 pub mod chain;
-pub mod bends;
 pub mod chart;
 pub mod curve;
 mod cut;
