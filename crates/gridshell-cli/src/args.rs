@@ -20,7 +20,7 @@ pub struct Args {
 #[derive(Subcommand)]
 pub enum Command {
     /// Lay a grid on a surface.
-    Generate(Generate),
+    Generate(Box<Generate>),
     /// Measure a grid.
     Measure(Measure),
     /// Tell what a surface is: patches, loops, corners, area, box, units, gaps.
