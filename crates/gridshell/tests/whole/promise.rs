@@ -18,8 +18,12 @@ pub fn recipe(edge_length: f64) -> Recipe {
 /// As [`recipe`], with fewer grids to choose from: what is promised holds for every one of them.
 pub fn quick(edge_length: f64) -> Recipe {
     let mut recipe = recipe(edge_length);
-    recipe.pack.draws = 24;
-    recipe.regularize.candidates = 4;
+    recipe.pack.draws = 16;
+    recipe.candidates = Some(2);
+    recipe.regularize.trials = 1000;
+    recipe.regularize.most_trials = 20_000;
+    recipe.regularize.heats = vec![[2, 20]];
+    recipe.regularize.most_polish = 600;
     recipe
 }
 
