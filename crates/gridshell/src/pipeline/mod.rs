@@ -40,15 +40,13 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     let make = |l: f64| model.surface(&sampling(l, nodes, recipe));
     let (surface, mut fixed) = wishes::surface(recipe, length, make)?;
     let size = Scale { length, nodes };
-    match symmetry::group(&surface, model, recipe, length)? {
-        Some(group) => symmetry::generate(model, &surface, &group, recipe, &size, fixed, job),
-        None => {
-            if recipe.symmetry != Symmetry::None {
-                fixed.push("no symmetry was found: the grid has none".into());
-            }
-            lay(model, &surface, recipe, &size, fixed, job)
-        }
+    if let Some(group) = symmetry::group(&surface, model, recipe, length)? {
+        return symmetry::generate(model, &surface, &group, recipe, &size, fixed, job);
     }
+    if recipe.symmetry != Symmetry::None {
+        fixed.push("no symmetry was found: the grid has none".into());
+    }
+    lay(model, &surface, recipe, &size, fixed, job)
 }
 
 /// Lay a grid on a surface that was made from `model`; `fixed` is what the user should know of what is fixed on it.
