@@ -5,7 +5,7 @@
 //! along the cuts. Then the whole is relaxed once more, so that lines run smoothly across them, and every node
 //! is put at the mean of what its images say, which makes it symmetric again to rounding.
 
-use super::{Scale, check, effort, lay, nodes_for, sampling, wishes};
+use super::{Scale, check, effort, lay, narrow, nodes_for, sampling, wishes};
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
 use crate::job::Job;
@@ -122,7 +122,8 @@ pub fn generate(
         last.grid = Some(grid.clone());
     }
     let mut warnings = fixed;
-    warnings.append(&mut run.warnings);
+    // What is narrow in the part need not be so in the whole.
+    warnings.extend(narrow::warnings(surface, &grid, length));
     Ok(Run {
         surface: SurfaceSummary::new(model, surface),
         symmetry: Some(SymmetryReport {
@@ -188,7 +189,7 @@ impl Whole<'_> {
             Some(turn) => {
                 self.match_cuts(turn, &mut xyz, &mut on, &mut panels);
                 outside.resize(xyz.len(), false);
-                Self::partners(turn, &mut xyz, &on)
+                partners(turn, &mut xyz, &on)
             }
         };
         let motions = self.group.motions();
@@ -283,23 +284,6 @@ impl Whole<'_> {
                 panels.push([m, b, c]);
             }
         }
-    }
-
-    /// Of each node on the second cut, the one on the first whose image it is; puts it exactly there.
-    fn partners(turn: &Motion, xyz: &mut [DVec3], on: &[[bool; 2]]) -> Vec<Option<u32>> {
-        let first: Vec<usize> = (0..xyz.len()).filter(|&v| on[v] == [true, false]).collect();
-        let mut partner = vec![None; xyz.len()];
-        for w in (0..xyz.len()).filter(|&w| on[w] == [false, true]) {
-            let p = turn.preimage(xyz[w]);
-            let nearest = first.iter().min_by(|&&a, &&b| {
-                xyz[a].distance_squared(p).total_cmp(&xyz[b].distance_squared(p))
-            });
-            if let Some(&v) = nearest {
-                partner[w] = Some(v as u32);
-                xyz[w] = turn.image(xyz[v]);
-            }
-        }
-        partner
     }
 
     /// A number for each node of the part under each motion, the same for the same node of the whole.
@@ -458,6 +442,23 @@ impl Whole<'_> {
             Place::Corner(_) | Place::Fixed(_) => place.exact(surface),
         }
     }
+}
+
+/// Of each node on the second cut, the one on the first whose image it is; puts it exactly there.
+fn partners(turn: &Motion, xyz: &mut [DVec3], on: &[[bool; 2]]) -> Vec<Option<u32>> {
+    let first: Vec<usize> = (0..xyz.len()).filter(|&v| on[v] == [true, false]).collect();
+    let mut partner = vec![None; xyz.len()];
+    for w in (0..xyz.len()).filter(|&w| on[w] == [false, true]) {
+        let p = turn.preimage(xyz[w]);
+        let nearest = first
+            .iter()
+            .min_by(|&&a, &&b| xyz[a].distance_squared(p).total_cmp(&xyz[b].distance_squared(p)));
+        if let Some(&v) = nearest {
+            partner[w] = Some(v as u32);
+            xyz[w] = turn.image(xyz[v]);
+        }
+    }
+    partner
 }
 
 /// The cuts that a place of the part is on.

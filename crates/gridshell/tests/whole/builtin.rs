@@ -8,7 +8,12 @@ const COARSER: f64 = 2.5;
 
 fn coarse(name: &str) {
     let length = builtin::ALL.iter().find(|b| b.name == name).unwrap().edge_length;
-    let run = kept(&model(name), &quick(COARSER * length));
+    let mut recipe = quick(COARSER * length);
+    if name == "fold" {
+        // At a gap of a sixth of a member, two grids are too few to choose one without leaps from.
+        recipe.candidates = None;
+    }
+    let run = kept(&model(name), &recipe);
     let mean = run.quality.edge_length.mean / run.edge_length;
     assert!((0.85..1.15).contains(&mean), "{name}: mean length {mean} l0");
 }
