@@ -20,7 +20,7 @@ pub struct Args {
 #[derive(Subcommand)]
 pub enum Command {
     /// Lay a grid on a surface.
-    Generate(Generate),
+    Generate(Box<Generate>),
     /// Measure a grid.
     Measure(Measure),
     /// Tell what a surface is: patches, loops, corners, area, box, units, gaps.
@@ -51,9 +51,19 @@ pub struct Generate {
     /// the longest stretch of the boundary.
     #[arg(long, value_name = "x,y,z|FILE|boundary", allow_hyphen_values = true)]
     pub direction: Option<String>,
+    /// Symmetry of the surface that the grid is to have too: `auto` for the largest that the surface has, mirror planes
+    /// square to `x`, `y` or both (`xy`), or a number of turns about a vertical axis.
+    #[arg(long, value_name = "auto|x|y|xy|N")]
+    pub symmetry: Option<String>,
     /// What the border is worth against the lines inside: 0 (one lattice, cut off) to 1 (rows along every border).
     #[arg(long, value_name = "0..1", allow_negative_numbers = true)]
     pub border: Option<f64>,
+    /// How much work to put in: `draft`, `standard` or `best`.
+    #[arg(long, value_name = "LEVEL")]
+    pub effort: Option<String>,
+    /// Grids made side by side, of which the best is kept.
+    #[arg(long, value_name = "N")]
+    pub candidates: Option<usize>,
     /// Method: `default`, or `paper` for the method as printed.
     #[arg(short, long, value_name = "NAME")]
     pub method: Option<String>,

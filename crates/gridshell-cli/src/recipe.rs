@@ -23,6 +23,10 @@ pub fn from_args(args: &Generate) -> Result<Recipe, Failure> {
     if let Some(seed) = args.seed {
         recipe.seed = seed;
     }
+    if let Some(effort) = &args.effort {
+        recipe.effort = effort.parse()?;
+    }
+    recipe.candidates = args.candidates.or(recipe.candidates);
     if let Some(angle) = args.feature_angle {
         recipe.feature_angle_deg = angle;
     }
@@ -48,6 +52,9 @@ pub fn from_args(args: &Generate) -> Result<Recipe, Failure> {
             (_, Some(xyz)) => Direction::Vector { xyz },
             (file, None) => Direction::Points { points: io::read_directions(Path::new(file))? },
         };
+    }
+    if let Some(symmetry) = &args.symmetry {
+        recipe.symmetry = symmetry.parse()?;
     }
     if let Some(border) = args.border {
         recipe.border = border;

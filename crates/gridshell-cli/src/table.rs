@@ -12,7 +12,11 @@ stage          nodes  mean l       r       q      mu   delta       Q   irregular
 /// One run: the surface, a row per stage, the checks, the warnings.
 pub fn run(run: &Run) -> String {
     let mut text = format!("{}\n", surface_line(&run.surface));
-    let _ = writeln!(text, "edge length {:.4} m, seed {}\n", run.edge_length, run.seed);
+    let _ = writeln!(text, "edge length {:.4} m, seed {}", run.edge_length, run.seed);
+    if let Some(symmetry) = &run.symmetry {
+        let _ = writeln!(text, "symmetry: {}", symmetry.told());
+    }
+    text += "\n";
     text += HEADER;
     for stage in &run.stages {
         text += &row(stage.name, stage.quality.as_ref(), Some(stage.seconds));

@@ -112,15 +112,12 @@ fn scale(criterion: &mut Criterion) {
             Sampling { max_edge: 0.7 * length, chord_error: 2e-3 * length, corner_angle: 0.5 };
         let model = builtin::model("saddle").unwrap();
         let surface = model.surface(&sampling).unwrap();
-        let flatten = || {
-            let euler = surface.euler_characteristic();
-            Chart::flatten(&surface.carrier, &surface.loops, euler).unwrap()
-        };
+        let flatten = || Chart::flatten(&surface).unwrap();
         let chart = flatten();
         let mut rng = fastrand::Rng::with_seed(1);
         let pieces = pack::boundary::pieces(&surface).len();
         let lattice = pack::lattice::Lattice::draw(pieces, &mut rng);
-        let lay = || lattice.bubbles(&surface, &chart, length, 1.0);
+        let lay = || lattice.bubbles(&surface, &chart, length, 1.0, None);
         let bubbles = lay();
         let connect = || triangulate::triangulate_in_chart(&surface, &chart, &bubbles).unwrap();
         let grid = connect();
@@ -131,8 +128,13 @@ fn scale(criterion: &mut Criterion) {
         group.bench_function(id("flatten"), |b| b.iter(flatten));
         group.bench_function(id("lay a lattice"), |b| b.iter(lay));
         group.bench_function(id("triangulate in the chart"), |b| b.iter(connect));
-        let options =
-            balance::Options { straightness: 0.3, settled: 1e-6, max_steps: 3, accuracy: 0.05 };
+        let options = balance::Options {
+            straightness: 0.3,
+            border: 1.0,
+            settled: 1e-6,
+            max_steps: 3,
+            accuracy: 0.05,
+        };
         group.bench_function(id("balance 3 steps"), |b| {
             b.iter_batched_ref(
                 || grid.clone(),

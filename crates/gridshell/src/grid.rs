@@ -172,9 +172,8 @@ impl Grid {
     /// feature tells which one it is.
     pub fn middle_on_feature(&self, surface: &Surface, a: u32, b: u32) -> Option<Place> {
         let (pa, pb) = (self.places[a as usize], self.places[b as usize]);
-        let (at, other) = match (pa, pb) {
-            (Place::Feature(at), other) | (other, Place::Feature(at)) => (at, other),
-            _ => return self.middle_of_whole_feature(surface, pa, pb),
+        let ((Place::Feature(at), other) | (other, Place::Feature(at))) = (pa, pb) else {
+            return self.middle_of_whole_feature(surface, pa, pb);
         };
         let chain = &surface.features[at.chain as usize];
         let s = match other {

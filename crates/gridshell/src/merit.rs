@@ -55,7 +55,7 @@ pub struct Lengths {
 }
 
 /// Members shorter or longer than this, over the wanted length, are beyond what is wanted.
-const MEMBERS: [f64; 2] = [0.66, 1.4];
+const MEMBERS: [f64; 2] = [0.64, 1.42];
 /// Members may be off a wanted direction by so much in the mean, radians, before it counts.
 const ASTRAY: f64 = 0.03;
 /// Panels of a lower shape q are beyond what is wanted.
@@ -180,14 +180,14 @@ impl Sums {
         let over = |x: f64, limit: f64| (x - limit).max(0.0);
         // Members at the border cannot be as even as those inside.
         let share = self.border_members.count / self.members.count.max(1.0);
-        let spread = (share * 0.14 * 0.14 + (1.0 - share) * 0.045 * 0.045).sqrt();
+        let spread = (share * 0.13 * 0.13 + (1.0 - share) * 0.04 * 0.04).sqrt();
         let held_back = 8.0 * over(self.members.cv(), spread)
-            + 2.0 * over(self.border_members.cv(), 0.118)
+            + 4.0 * over(self.border_members.cv(), 0.12)
             + 3.0 * over(0.958, self.border_shape_mean())
             + 10.0 * over((self.members.mean() - 1.0).abs(), 0.01)
             + 30.0 * over(0.986, self.area)
             + 20.0 * over(self.astray / self.guided.max(1.0), ASTRAY)
-            + 4.0 * self.excess;
+            + 8.0 * self.excess;
         self.fluency(lambda).unwrap_or(1.0 / PERFECT) / (1.0 + held_back)
     }
 }

@@ -18,8 +18,15 @@ pub struct Recipe {
     pub size: Size,
     /// Direction that one family of lines is to follow where the shape allows.
     pub direction: Direction,
+    /// Symmetry of the surface that the grid is to have too.
+    pub symmetry: Symmetry,
     /// Seed of every random choice.
     pub seed: u64,
+    /// How much work to put in.
+    pub effort: Effort,
+    /// Grids made side by side, of which the one of highest merit is kept; None: as many as suit the effort and
+    /// the number of nodes.
+    pub candidates: Option<usize>,
     /// Boundary vertices where the boundary turns by more than this are corners (fixed nodes), degrees.
     pub corner_angle_deg: f64,
     /// Edges where the surface turns by more than this are creases that members follow, degrees; 180 finds none.
@@ -152,6 +159,97 @@ fn coordinates(name: &str, values: &[f64]) -> Result<()> {
     values.iter().try_for_each(|&x| within(&format!("a number of {name}"), x, -1e12, 1e12))
 }
 
+/// A symmetry that a grid is to have; written `none`, `auto`, `x`, `y`, `xy`, or a number of turns. Axes and planes are
+/// vertical and go through where the surface has them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "String")]
+pub enum Symmetry {
+    /// None.
+    None,
+    /// The largest that the surface has.
+    Auto,
+    /// The mirror plane square to x.
+    X,
+    /// The mirror plane square to y.
+    Y,
+    /// Both.
+    Xy,
+    /// The turn by a full turn over this number.
+    Turns(u32),
+}
+
+/// A symmetry as recipes have it.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Written {
+    Number(u32),
+    Name(String),
+}
+
+impl TryFrom<Written> for Symmetry {
+    type Error = Error;
+
+    fn try_from(written: Written) -> Result<Symmetry> {
+        match written {
+            Written::Number(n) => n.to_string().parse(),
+            Written::Name(name) => name.parse(),
+        }
+    }
+}
+
+impl std::str::FromStr for Symmetry {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Symmetry> {
+        match (text, text.parse()) {
+            ("none", _) => Ok(Symmetry::None),
+            ("auto", _) => Ok(Symmetry::Auto),
+            ("x", _) => Ok(Symmetry::X),
+            ("y", _) => Ok(Symmetry::Y),
+            ("xy", _) => Ok(Symmetry::Xy),
+            (_, Ok(n)) if (2..=MOST_TURNS).contains(&n) => Ok(Symmetry::Turns(n)),
+            _ => Err(Error::Option(format!(
+                "no symmetry {text:?}: it must be none, auto, x, y, xy, or a number of turns from 2 to {MOST_TURNS}"
+            ))),
+        }
+    }
+}
+
+impl std::fmt::Display for Symmetry {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            Symmetry::None => f.write_str("none"),
+            Symmetry::Auto => f.write_str("auto"),
+            Symmetry::X => f.write_str("x"),
+            Symmetry::Y => f.write_str("y"),
+            Symmetry::Xy => f.write_str("xy"),
+            Symmetry::Turns(n) => write!(f, "{n}"),
+        }
+    }
+}
+
+impl From<Symmetry> for String {
+    fn from(symmetry: Symmetry) -> String {
+        symmetry.to_string()
+    }
+}
+
+/// A grid of more turns has too narrow parts.
+const MOST_TURNS: u32 = 12;
+
+/// How much work to put into a grid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Effort {
+    /// Quick, to choose the rest by: few candidates, no polish.
+    Draft,
+    /// What a grid is usually worth.
+    #[default]
+    Standard,
+    /// Twice the candidates and three times the polish.
+    Best,
+}
+
 /// How the bubbles start and settle (Sections 4.1 and 4.2).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -256,6 +354,21 @@ pub struct Measure {
     pub lambda: f64,
 }
 
+impl std::str::FromStr for Effort {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Effort> {
+        match name {
+            "draft" => Ok(Effort::Draft),
+            "standard" => Ok(Effort::Standard),
+            "best" => Ok(Effort::Best),
+            _ => {
+                Err(Error::Option(format!("no effort {name:?}; there are: draft, standard, best")))
+            }
+        }
+    }
+}
+
 impl Default for Recipe {
     fn default() -> Self {
         Recipe {
@@ -263,7 +376,10 @@ impl Default for Recipe {
             nodes: None,
             size: Size::Uniform,
             direction: Direction::Any,
+            symmetry: Symmetry::None,
             seed: 1,
+            effort: Effort::Standard,
+            candidates: None,
             corner_angle_deg: 30.0,
             feature_angle_deg: 40.0,
             guides: Vec::new(),
@@ -301,10 +417,10 @@ impl Default for Regularize {
             max_rounds: 200,
             node_range: 0.1,
             trials: 2000,
-            most_trials: 240_000,
+            most_trials: 60_000,
             candidates: 16,
-            heats: vec![[16, 40], [5, 120], [2, 300]],
-            most_polish: 30_000,
+            heats: vec![[12, 30], [4, 100], [2, 250]],
+            most_polish: 20_000,
             residual_weight: 0.6,
             temperature: [0.15, 0.03],
         }
@@ -391,6 +507,7 @@ impl Recipe {
         }
         self.size.validate()?;
         self.direction.validate()?;
+        self.validate_symmetry()?;
         within("corner_angle_deg", self.corner_angle_deg, 0.0, 180.0)?;
         within("feature_angle_deg", self.feature_angle_deg, 1.0, 180.0)?;
         let mut fixed = self.guides.iter().flatten().chain(&self.anchors).flatten();
@@ -414,10 +531,32 @@ impl Recipe {
         positive("pack.settled", pack.settled)?;
         within("pack.draws", pack.draws as f64, 1.0, 1e6)?;
 
+        if let Some(candidates) = self.candidates {
+            within("candidates", candidates as f64, 1.0, 1e3)?;
+        }
         within("regularize.node_range", self.regularize.node_range, 0.0, 1.0)?;
         within("regularize.candidates", self.regularize.candidates as f64, 1.0, 1e4)?;
         within("relax.straightness", self.relax.straightness, 0.0, 100.0)?;
         positive("relax.settled", self.relax.settled)
+    }
+
+    /// Refuse what need not be symmetric beside a symmetry.
+    fn validate_symmetry(&self) -> Result<()> {
+        if let Symmetry::Turns(n) = self.symmetry {
+            within("symmetry", f64::from(n), 2.0, f64::from(MOST_TURNS))?;
+        }
+        let given = [
+            (!self.guides.is_empty(), "guides"),
+            (!self.anchors.is_empty(), "anchors"),
+            (self.direction != Direction::Any, "a direction"),
+            (matches!(self.size, Size::Points { .. }), "lengths at points"),
+        ];
+        match given.iter().find(|g| g.0) {
+            Some((_, what)) if self.symmetry != Symmetry::None => Err(Error::Option(format!(
+                "{what} cannot be given together with a symmetry: leave out one of the two"
+            ))),
+            _ => Ok(()),
+        }
     }
 
     /// Check that members of `edge_length` metres on a surface of `area` square metres make a grid of a

@@ -29,6 +29,9 @@ pub struct Run {
     pub edge_length: f64,
     /// The recipe, complete.
     pub recipe: Recipe,
+    /// The symmetry that the grid has; None where none was asked for or found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub symmetry: Option<SymmetryReport>,
     /// The candidates, the one that was kept first and the others by how far they came.
     pub candidates: Vec<CandidateReport>,
     /// The stages in their order.
@@ -44,6 +47,38 @@ pub struct Run {
     /// The final grid.
     #[serde(skip)]
     pub grid: Grid,
+}
+
+/// The symmetry of a grid.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SymmetryReport {
+    /// Horizontal unit normals x, y of its vertical mirror planes.
+    pub mirrors: Vec<[f64; 2]>,
+    /// Number of turns, the one by nothing included: 1 for mirrors only.
+    pub rotations: u32,
+    /// x, y of the vertical axis, or of a point on the mirror plane, metres.
+    pub centre: [f64; 2],
+    /// Nodes of the part that all others are images of.
+    pub part_nodes: usize,
+}
+
+impl SymmetryReport {
+    /// As people say it.
+    pub fn told(&self) -> String {
+        let turns = match self.rotations {
+            1 => None,
+            n => Some(format!("{n} turns")),
+        };
+        let mirrors = match self.mirrors.len() {
+            0 => None,
+            1 => Some("1 mirror plane".to_owned()),
+            n => Some(format!("{n} mirror planes")),
+        };
+        // Not -0.000.
+        let [x, y] = self.centre.map(|x| (x * 1e3).round() / 1e3 + 0.0);
+        let parts: Vec<String> = turns.into_iter().chain(mirrors).collect();
+        format!("{} at ({x:.3}, {y:.3})", parts.join(" and "))
+    }
 }
 
 /// One of the candidates that a grid was chosen from, as it was when it was left behind (before relaxing).

@@ -6,7 +6,7 @@ use crate::balance::{self, balance};
 use crate::grid::Grid;
 use crate::job::Job;
 use crate::merit::Sums;
-use crate::recipe::{Recipe, RegularizeMethod};
+use crate::recipe::{Recipe, RegularizeMethod, RelaxMethod};
 use crate::run::CandidateReport;
 use crate::stages::measure::{Border, bridging_members};
 use crate::stages::{regularize, relax, triangulate};
@@ -77,8 +77,9 @@ pub fn regularize(
         let through = through.clamp(1, candidates.len());
         candidates[..through].par_iter_mut().for_each(|c| {
             let seed = starts[c.start].seed.wrapping_add(heat as u64 + 1);
+            let own = own_recipe(recipe, c.start);
             let (grid, report) =
-                regularize::polish(surface, c.grid.clone(), length, recipe, trials, seed, job);
+                regularize::polish(surface, c.grid.clone(), length, &own, trials, seed, job);
             let polished =
                 Candidate::new(surface, c.start, grid, c.report.and(&report), length, recipe);
             // Polishing gives back the best it met, up to the last balance.
@@ -105,19 +106,26 @@ pub fn relax(
         candidates.iter().take_while(|c| c.heats == furthest).take(FINALISTS).collect();
     let relaxed: Vec<Winner> = finalists
         .into_par_iter()
-        .map(|c| {
-            let mut grid = c.grid.clone();
-            let relaxed = relax::relax(surface, &mut grid, recipe, job);
-            let sums = Sums::whole(&grid, surface, length, recipe.measure.lambda);
-            Winner {
-                start: c.start,
-                before: c.grid.clone(),
-                regularized: c.report,
-                flaws: bridging_members(&grid, surface, length),
-                merit: sums.merit(recipe.measure.lambda),
-                grid,
-                relaxed,
-            }
+        .flat_map_iter(|c| {
+            let several = recipe.relax.method == RelaxMethod::Fluent && c.heats > 0;
+            let ends = if several { &ENDS[..] } else { &ENDS[..1] };
+            ends.iter().map(move |end| {
+                let mut own = own_recipe(recipe, c.start);
+                own.border *= end[0];
+                own.relax.straightness *= end[1];
+                let mut grid = c.grid.clone();
+                let relaxed = relax::relax(surface, &mut grid, &own, job);
+                let sums = Sums::whole(&grid, surface, length, recipe.measure.lambda);
+                Winner {
+                    start: c.start,
+                    before: c.grid.clone(),
+                    regularized: c.report,
+                    flaws: bridging_members(&grid, surface, length),
+                    merit: sums.merit(recipe.measure.lambda),
+                    grid,
+                    relaxed,
+                }
+            })
         })
         .collect();
     // The first of equals: candidates come best first.
@@ -127,6 +135,18 @@ pub fn relax(
 
 /// Candidates that are relaxed to the end.
 const FINALISTS: usize = 4;
+
+/// What the weights of border and straightness are multiplied by for the relaxations that a finalist gets. What
+/// suits one shape best is a little too much for another: merit decides.
+const ENDS: [[f64; 2]; 4] = [[1.0, 1.0], [1.5, 1.0], [1.0, 0.6], [1.0, 1.6]];
+
+/// Every other candidate is polished with less weight on the border, which frees the lines inside.
+const LESS_BORDER: f64 = 0.2;
+
+fn own_recipe(recipe: &Recipe, start: usize) -> Recipe {
+    let share = if start % 2 == 1 && recipe.border <= 0.5 { LESS_BORDER } else { 1.0 };
+    Recipe { border: recipe.border * share, ..recipe.clone() }
+}
 
 /// The furthest first, and of those the best. A stable sort: equals stay in their order.
 fn rank(candidates: &mut [Candidate]) {

@@ -7,10 +7,13 @@
 //! from draw to draw. Their irregular nodes stand along the border, some tenths of the square root of the
 //! count, each with room about it: a few hundred trials for each do what thousands do in a small grid.
 
-use crate::recipe::{Recipe, RegularizeMethod};
+use crate::recipe::{Effort, Recipe, RegularizeMethod};
 
 /// Up to so many nodes the recipe's counts hold in full.
 const FULL: f64 = 2000.0;
+/// Below so many nodes there are more candidates, by this factor.
+const SMALL: f64 = 500.0;
+const MORE: f64 = 2.0;
 /// Fewest draws and candidates of a large grid (or the recipe's, where it asks for fewer).
 const LEAST_DRAWS: usize = 16;
 const LEAST_CANDIDATES: usize = 5;
@@ -42,18 +45,52 @@ pub fn budgeted(recipe: &Recipe, nodes: f64) -> Recipe {
         recipe.pack.max_steps = cut(recipe.pack.max_steps, share, LEAST_STEPS);
     }
     let regularize = &mut recipe.regularize;
+    // Small grids are cheap, and each of their irregular nodes counts: more candidates.
+    let share = if nodes < SMALL { share * MORE } else { share };
     regularize.candidates = cut(regularize.candidates, share, LEAST_CANDIDATES);
     let last = regularize.heats.last().map_or(1, |h| h[1]).max(1);
     for [through, trials] in &mut regularize.heats {
         *through = cut(*through, share, 1);
-        *trials = cut(*trials, share, LEAST_POLISH * *trials / last);
+        *trials = cut(*trials, share.min(1.0), LEAST_POLISH * *trials / last);
     }
-    regularize.trials = cut(regularize.trials, share * share, LEAST_TRIALS);
+    regularize.trials = cut(regularize.trials, (share * share).min(1.0), LEAST_TRIALS);
     // All trials of one grid may take twice as long as all trials of the smallest full one, and then as the
     // border grows.
     let most = regularize.most_trials as f64 * (nodes / (20.0 * FULL)).sqrt().max(1.0);
     regularize.most_trials = most as usize;
+    match recipe.effort {
+        Effort::Draft => draft(&mut recipe),
+        Effort::Standard => {}
+        Effort::Best => best(&mut recipe),
+    }
+    if let Some(candidates) = recipe.candidates {
+        recipe.regularize.candidates = candidates;
+        recipe.pack.draws = recipe.pack.draws.max(candidates);
+        if let Some([through, _]) = recipe.regularize.heats.first_mut() {
+            *through = candidates;
+        }
+    }
     recipe
+}
+
+/// No polish, and few of everything else.
+fn draft(recipe: &mut Recipe) {
+    recipe.pack.draws = recipe.pack.draws.min(4);
+    recipe.regularize.candidates = recipe.regularize.candidates.min(2);
+    recipe.regularize.trials = recipe.regularize.trials.min(150);
+    recipe.regularize.heats.clear();
+}
+
+/// Twice the candidates, and three times the polish of each.
+fn best(recipe: &mut Recipe) {
+    recipe.pack.draws *= 2;
+    let regularize = &mut recipe.regularize;
+    regularize.candidates *= 2;
+    regularize.most_polish *= 3;
+    for [through, trials] in &mut regularize.heats {
+        *through *= 2;
+        *trials *= 3;
+    }
 }
 
 /// Longest carrier edges over l0 for a grid of about `nodes` nodes.
@@ -68,8 +105,9 @@ mod tests {
     #[test]
     fn small_grids_get_all_that_the_recipe_says() {
         let recipe = Recipe::default();
-        assert_eq!(budgeted(&recipe, 60.0), recipe);
+        assert_eq!(budgeted(&recipe, SMALL), recipe);
         assert_eq!(budgeted(&recipe, FULL), recipe);
+        assert!(budgeted(&recipe, 60.0).regularize.candidates > recipe.regularize.candidates);
         assert_eq!(carrier_edge(FULL), CARRIER_EDGE);
     }
 
@@ -90,6 +128,16 @@ mod tests {
     fn method_as_printed_packs_until_it_settles() {
         let paper = Recipe::named("paper").unwrap();
         assert_eq!(budgeted(&paper, 1e5).pack.max_steps, paper.pack.max_steps);
+    }
+
+    #[test]
+    fn as_many_candidates_run_as_are_asked_for() {
+        for effort in [Effort::Draft, Effort::Standard, Effort::Best] {
+            let recipe = Recipe { candidates: Some(7), effort, ..Recipe::default() };
+            let budget = budgeted(&recipe, 1e4);
+            assert_eq!(budget.regularize.candidates, 7);
+            assert!(budget.pack.draws >= 7);
+        }
     }
 
     #[test]

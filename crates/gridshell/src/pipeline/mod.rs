@@ -9,12 +9,13 @@ mod contest;
 mod effort;
 mod narrow;
 mod starts;
+mod symmetry;
 mod wishes;
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::job::Job;
-use crate::recipe::Recipe;
+use crate::recipe::{Recipe, Symmetry};
 use crate::run::{CandidateReport, Run, SCHEMA, StageReport, SurfaceSummary};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
@@ -36,13 +37,33 @@ const SENSIBLE_NODES: usize = 1000;
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
     let Scale { length, nodes } = scale(model, recipe)?;
-    let (surface, fixed) = wishes::surface(model, recipe, length, |l| sampling(l, nodes, recipe))?;
+    let make = |l: f64| model.surface(&sampling(l, nodes, recipe));
+    let (surface, mut fixed) = wishes::surface(recipe, length, make)?;
+    let size = Scale { length, nodes };
+    if let Some(group) = symmetry::group(&surface, model, recipe, length)? {
+        return symmetry::generate(model, &surface, &group, recipe, &size, fixed, job);
+    }
+    if recipe.symmetry != Symmetry::None {
+        fixed.push("no symmetry was found: the grid has none".into());
+    }
+    lay(model, &surface, recipe, &size, fixed, job)
+}
+
+/// Lay a grid on a surface that was made from `model`; `fixed` is what the user should know of what is fixed on it.
+fn lay(
+    model: &Model,
+    surface: &Surface,
+    recipe: &Recipe,
+    &Scale { length, nodes }: &Scale,
+    fixed: Vec<String>,
+    job: &Job,
+) -> Result<Run> {
     let budget = effort::budgeted(recipe, nodes);
     let mut stages = Vec::new();
-    let judge = |grid: &Grid| measure(grid, &surface, length, &recipe.measure);
+    let judge = |grid: &Grid| measure(grid, surface, length, &recipe.measure);
 
     let clock = Instant::now();
-    let Starts { starts, notes } = starts::starts(&surface, length, &budget, job)?;
+    let Starts { starts, notes } = starts::starts(surface, length, &budget, job)?;
     let packed = clock.elapsed().as_secs_f64();
 
     let clock = Instant::now();
@@ -50,16 +71,16 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         .par_iter()
         .map(|start| match &start.grid {
             Some(grid) => Ok((grid.clone(), triangulate::Report::default())),
-            None => triangulate::triangulate(&surface, &start.bubbles),
+            None => triangulate::triangulate(surface, &start.bubbles),
         })
         .collect::<Result<_>>()?;
     let triangulated_in = clock.elapsed().as_secs_f64();
 
     let clock = Instant::now();
-    let candidates = contest::regularize(&surface, &starts, &triangulated, length, &budget, job);
+    let candidates = contest::regularize(surface, &starts, &triangulated, length, &budget, job);
     let regularized_in = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
-    let Some(winner) = contest::relax(&surface, &candidates, length, &budget, job) else {
+    let Some(winner) = contest::relax(surface, &candidates, length, &budget, job) else {
         return Err(Error::Surface("the surface has no room for a single node".into()));
     };
     let table = contest::table(&candidates, winner.start, &starts, recipe);
@@ -68,7 +89,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     let Start { report: settled, bubbles, .. } = &starts[winner.start];
     let (grid, report) = &triangulated[winner.start];
     let mut warnings = fixed;
-    warnings.extend(self::warnings(&surface, bubbles.len(), report));
+    warnings.extend(self::warnings(surface, bubbles.len(), report));
     // Bubbles have no members yet: what is measured, as in the paper's Table 3, is their Delaunay grid.
     let packed_quality = judge(grid);
     stages.push(StageReport {
@@ -77,7 +98,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         converged: settled.is_none_or(|r| r.converged),
         quality: Some(packed_quality.clone()),
         notes,
-        grid: Some(exact(grid.clone(), &surface)),
+        grid: Some(exact(grid.clone(), surface)),
     });
     stages.push(StageReport {
         name: "triangulate",
@@ -85,7 +106,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         converged: true,
         quality: Some(packed_quality),
         notes: Vec::new(),
-        grid: Some(exact(grid.clone(), &surface)),
+        grid: Some(exact(grid.clone(), surface)),
     });
     stages.push(StageReport {
         name: "regularize",
@@ -93,9 +114,9 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         converged: winner.regularized.converged,
         quality: Some(judge(&winner.before)),
         notes: vec![winner.regularized.to_string()],
-        grid: Some(exact(winner.before, &surface)),
+        grid: Some(exact(winner.before, surface)),
     });
-    let grid = exact(winner.grid, &surface);
+    let grid = exact(winner.grid, surface);
     let quality = judge(&grid);
     stages.push(StageReport {
         name: "relax",
@@ -108,8 +129,8 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         )],
         grid: Some(grid.clone()),
     });
-    warnings.extend(narrow::warnings(&surface, &grid, length));
-    finish(model, &surface, recipe, length, table, stages, warnings, quality, grid, job)
+    warnings.extend(narrow::warnings(surface, &grid, length));
+    finish(model, surface, recipe, length, table, stages, warnings, quality, grid, job)
 }
 
 #[expect(clippy::too_many_arguments, reason = "the parts of a run, gathered once")]
@@ -134,6 +155,7 @@ fn finish(
         surface: SurfaceSummary::new(model, surface),
         edge_length: length,
         recipe: recipe.clone(),
+        symmetry: None,
         candidates,
         stages,
         irregular: irregular_nodes(&grid),

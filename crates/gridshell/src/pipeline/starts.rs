@@ -8,7 +8,7 @@ use crate::job::Job;
 use crate::merit::Sums;
 use crate::recipe::{self, Recipe};
 use crate::stages::{pack, triangulate};
-use crate::surface::{Surface, chart::Chart};
+use crate::surface::{Surface, bends::sharp_bends, chart::Chart};
 use pack::lattice::Lattice;
 use rayon::prelude::*;
 
@@ -114,6 +114,7 @@ fn lattices(
         accuracy: 0.1,
     };
     let wanted = chart.wanted_angle(surface);
+    let bends = sharp_bends(surface, chart, length);
     let judged: Vec<Option<(f64, Start)>> = (0..draws as u64)
         .into_par_iter()
         .map(|k| {
@@ -126,6 +127,12 @@ fn lattices(
             // Every other draw runs with the border somewhere, the longer the stretch the likelier.
             if let Some(angle) = wanted {
                 lattice.angle = angle + SWAY * (2.0 * rng.f64() - 1.0);
+            } else if let Some(last) = bends.last().filter(|_| k % 2 == 1) {
+                // A row of nodes along the bend: members do not cut it short, nor leap across.
+                let at = rng.f64() * last.until;
+                let bend = &bends[bends.partition_point(|b| b.until < at).min(bends.len() - 1)];
+                lattice.angle = bend.angle;
+                lattice.through = Some(bend.at);
             } else if k % 2 == 0 {
                 lattice.angle = chart.border_direction(&surface.loops, rng.f64());
             }

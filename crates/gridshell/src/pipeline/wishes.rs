@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::recipe::{Direction, Recipe, Size};
-use crate::surface::{Fixtures, Model, Sampling, Surface, grading};
+use crate::surface::{Fixtures, Surface, grading};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -11,20 +11,19 @@ const SHORT: f64 = 0.8;
 /// But never finer than for this share.
 const SHORTEST: f64 = 0.2;
 
-/// The surface of `model` for members of `length` metres, with features, anchors, lengths and directions as the
-/// recipe wants them, and what the user should know of them; `sampling` tells what suits members of a length.
+/// The surface for members of `length` metres, with features, anchors, lengths and directions as the recipe wants
+/// them, and what the user should know of them; `make` gives the surface that suits members of a length.
 pub fn surface(
-    model: &Model,
     recipe: &Recipe,
     length: f64,
-    sampling: impl Fn(f64) -> Sampling,
+    make: impl Fn(f64) -> Result<Surface>,
 ) -> Result<(Surface, Vec<String>)> {
-    let mut surface = model.surface(&sampling(length))?;
+    let mut surface = make(length)?;
     let mut told = fix(&mut surface, length, recipe)?;
     grade(&mut surface, recipe, Some(length));
     let least = surface.scale.iter().copied().fold(1.0, f64::min);
     if least < SHORT {
-        surface = model.surface(&sampling(length * least.max(SHORTEST)))?;
+        surface = make(length * least.max(SHORTEST))?;
         told = fix(&mut surface, length, recipe)?;
         grade(&mut surface, recipe, Some(length));
     }

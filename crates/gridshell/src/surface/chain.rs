@@ -74,7 +74,16 @@ impl Chain {
     /// The segment that holds `s`, and the fraction along it in [0, 1].
     pub fn locate(&self, s: f64) -> (usize, f64) {
         let s = self.wrap(s);
-        let k = self.arc.partition_point(|&a| a <= s).clamp(1, self.segments.len()) - 1;
+        let last = self.segments.len() - 1;
+        // Segments are about equally long: the right one is near the guess.
+        let guess = s * (last + 1) as f64 / self.arc[last + 1].max(f64::MIN_POSITIVE);
+        let mut k = (guess as usize).min(last);
+        while k < last && self.arc[k + 1] <= s {
+            k += 1;
+        }
+        while k > 0 && self.arc[k] > s {
+            k -= 1;
+        }
         let (a, b) = (self.arc[k], self.arc[k + 1]);
         (k, if b > a { ((s - a) / (b - a)).clamp(0.0, 1.0) } else { 0.0 })
     }
@@ -122,18 +131,27 @@ impl Chain {
 
     /// Distance of `xyz` from the exact boundary curve of the segment at `s`.
     pub fn deviation(&self, surface: &Surface, s: f64, xyz: DVec3) -> f64 {
+        self.foot(surface, s, xyz).distance(xyz)
+    }
+
+    /// The foot of `xyz` on the exact boundary curve of the segment at `s`.
+    pub fn foot(&self, surface: &Surface, s: f64, xyz: DVec3) -> DVec3 {
         let (k, f) = self.locate(s);
         let n = self.vertices.len();
-        let vertex = |k: usize| surface.carrier.points[self.vertices[k % n] as usize].distance(xyz);
         // Vertices count as they stand: curves of neighbouring edges need not quite meet in them.
-        let ends = vertex(k).min(vertex(k + 1));
+        let ends = [k, k + 1].map(|k| surface.carrier.points[self.vertices[k % n] as usize]);
         let seg = &self.segments[k];
-        let Some(curve) = surface.curves.get(seg.curve as usize) else {
-            return ends.min(self.xyz(&surface.carrier, s).distance(xyz));
+        let foot = match surface.curves.get(seg.curve as usize) {
+            None => self.xyz(&surface.carrier, s),
+            Some(curve) => {
+                let [t0, t1] = seg.t;
+                curve.project(t0 + (t1 - t0) * f, [t0.min(t1), t0.max(t1)], xyz).1
+            }
         };
-        let [t0, t1] = seg.t;
-        let foot = curve.project(t0 + (t1 - t0) * f, [t0.min(t1), t0.max(t1)], xyz).1;
-        ends.min(foot.distance(xyz))
+        let nearer = |a: DVec3, b: DVec3| {
+            if b.distance_squared(xyz) < a.distance_squared(xyz) { b } else { a }
+        };
+        ends.into_iter().fold(foot, nearer)
     }
 
     /// Mark as corners the vertices where the chain turns by more than `corner_angle` radians, between

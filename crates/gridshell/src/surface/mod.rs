@@ -5,6 +5,7 @@
 //! exact curves behind them. Metres throughout.
 
 mod area;
+pub mod bends;
 pub mod brep;
 pub mod builtin;
 mod cap;
@@ -19,9 +20,11 @@ pub mod facets;
 pub mod feature;
 mod fill;
 pub mod grading;
+pub mod group;
 mod guide;
 pub mod locate;
 pub mod model;
+mod motion;
 pub mod nurbs;
 mod orient;
 mod polygon;
@@ -30,6 +33,7 @@ mod refine;
 pub mod ruler;
 mod sample;
 mod seam;
+pub mod section;
 pub mod shape;
 mod size;
 mod stretch;
@@ -43,8 +47,10 @@ pub use carrier::{Carrier, SurfacePoint};
 pub use chain::{Chain, ChainPoint};
 pub use curve::Curve;
 pub use feature::Fixtures;
+pub use group::{Group, Symmetries};
 pub use locate::Locator;
 pub use model::{Model, PolygonMesh, Sampling};
+pub use motion::Motion;
 pub use ruler::Ruler;
 pub use shape::Shape;
 pub use tessellate::tessellate;
@@ -99,12 +105,17 @@ impl Surface {
         }
     }
 
-    /// Distance of `xyz` from the exact surface near the carrier point `point`: to the foot on the patch of
-    /// that point's triangle. On a mesh, to the carrier point.
+    /// Distance of `xyz` from the exact surface near the carrier point `point`: to its [`foot`](Surface::foot).
     pub fn deviation(&self, point: &SurfacePoint, xyz: DVec3) -> f64 {
+        self.foot(point, xyz).distance(xyz)
+    }
+
+    /// The foot of `xyz` on the exact surface near the carrier point `point`: on the patch of that point's
+    /// triangle. On a mesh, the carrier point.
+    pub fn foot(&self, point: &SurfacePoint, xyz: DVec3) -> DVec3 {
         match self.shapes.get(self.carrier.patch[point.triangle as usize] as usize) {
-            Some(shape) => shape.project(self.carrier.uv_at(point), xyz).1.distance(xyz),
-            None => self.carrier.xyz(point).distance(xyz),
+            Some(shape) => shape.project(self.carrier.uv_at(point), xyz).1,
+            None => self.carrier.xyz(point),
         }
     }
 }

@@ -95,7 +95,9 @@ fn guides_and_anchors_on_a_plane_stay() {
         assert_eq!(run.warnings, Vec::<String>::new());
         assert_followed(&run, &line(&bent));
         assert_followed(&run, &line(&across));
-        anchors.iter().for_each(|&a| assert_anchored(&run, a));
+        for &a in &anchors {
+            assert_anchored(&run, a);
+        }
         // The corner of the bent guide and the crossing are nodes.
         assert_anchored(&run, bent[1]);
     }
@@ -124,7 +126,9 @@ fn guides_from_border_to_border_of_a_vault_stay() {
     for recipe in recipes(2.0) {
         let guides = vec![ruling(3.3), ruling(-5.1)];
         let run = kept(&model("barrel"), &Recipe { guides: guides.clone(), ..recipe });
-        guides.iter().for_each(|g| assert_followed(&run, &line(g)));
+        for g in &guides {
+            assert_followed(&run, &line(g));
+        }
     }
 }
 

@@ -11,6 +11,7 @@ mod paper;
 mod promise;
 mod sheets;
 mod stopping;
+mod symmetry;
 mod threads;
 mod topology;
 mod wishes;

@@ -16,6 +16,8 @@ pub struct Lattice {
     pub angle: f64,
     /// Shift in units of the two lattice vectors.
     pub offset: [f64; 2],
+    /// A point of the chart that a row of nodes is to run through.
+    pub through: Option<DVec2>,
     /// No lattice node nearer to the boundary than this, over l0.
     pub margin: f64,
     /// Members added to (or taken from) each boundary piece, then each feature.
@@ -30,6 +32,7 @@ impl Lattice {
         Lattice {
             angle: rng.f64() * std::f64::consts::FRAC_PI_3,
             offset: [rng.f64(), rng.f64()],
+            through: None,
             margin: 0.4 + 0.3 * rng.f64(),
             extra: (0..pieces).map(|_| rng.i64(-1..=1)).collect(),
             slide: rng.f64(),
@@ -108,7 +111,10 @@ impl Lattice {
         let a = DVec2::new(c, s) * step;
         let b = a * 0.5 + a.perp() * (0.5 * 3f64.sqrt());
         let to_lattice = DMat2::from_cols(a, b).inverse();
-        let shift = DVec2::from_array(self.offset);
+        let mut shift = DVec2::from_array(self.offset);
+        if let Some(at) = self.through {
+            shift.y = (to_lattice * at).y;
+        }
         let mut found: Vec<([i64; 2], SurfacePoint)> = Vec::new();
         for t in 0..carrier.triangles.len() {
             let corners = chart.corners(carrier, t);

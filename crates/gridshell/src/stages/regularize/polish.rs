@@ -1,5 +1,9 @@
-//! Polish by merit: one edge operation near an irregular node, the surroundings brought into balance, kept if
+//! Polish by merit: a few edge operations near an irregular node, the surroundings brought into balance, kept if
 //! the merit of the whole grid says so.
+//!
+//! One operation alone nearly always makes a grid worse; what helps is a short run of them: one to three drawn,
+//! each beside the last, then every flip round them that lowers R. Such a plan is weighed by its change of R before
+//! anything moves, and most plans end there.
 
 use super::Report;
 use super::local::{Aim, Local};
@@ -20,16 +24,19 @@ const STEPS: usize = 2;
 const LEAST_SHAPE: f64 = 0.55;
 /// Rounds, each begun with the whole grid in balance.
 const ROUNDS: usize = 6;
-/// Temperatures, first and last, as shares of the merit.
+/// Temperatures, first and last, in units of what one more irregular node on the border costs in merit.
 const TEMPERATURE: [f64; 2] = [0.4, 0.05];
-/// What an operation may at best win by lengths and lines, as a share of the merit.
+/// Irregular nodes that trials are made for at least.
+const LEAST_PLACES: usize = 40;
+/// What operations may at best win by lengths and lines, in the same units.
 const HOPE: f64 = 1.0;
 
 /// Polish `state` by so many trials per irregular node.
 pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job: &Job) -> Report {
     let mut report = Report::default();
     // Few irregular nodes are hard to lose: the border is where they go, so its size counts as well.
-    let places = state.irregular().len().max(state.grid.mesh.boundary_count() / 2);
+    let places =
+        state.irregular().len().max(state.grid.mesh.boundary_count() / 2).max(LEAST_PLACES);
     let trials = trials.saturating_mul(places).min(recipe.regularize.most_polish);
     let mut polish = Polish::new(state, recipe, seed);
     for round in 0..ROUNDS {
@@ -173,7 +180,7 @@ impl<'a, 'b> Polish<'a, 'b> {
                 .min_by(|x, y| x.0.total_cmp(&y.0));
             match best {
                 Some((gain, v, w)) if gain < -1e-9 => {
-                    plan.make(self.state, Operation::Flip, v, w)?
+                    plan.make(self.state, Operation::Flip, v, w)?;
                 }
                 _ => break,
             }
@@ -185,38 +192,27 @@ impl<'a, 'b> Polish<'a, 'b> {
     /// or None where a panel is bad.
     fn carry_out(&mut self, plan: &Plan) -> Option<(Sums, Few)> {
         let state = &mut *self.state;
-        let before = state.region(&plan.touched, RINGS);
-        let mut sums_before = Sums::default();
-        // The nodes round the operations are known once they are made; those that they remove, before.
-        for pass in 0..2 {
-            for &(operation, a, b) in &plan.steps {
-                operation.apply(state, a, b).ok()?;
-            }
-            let rim = state.region(&plan.touched, RINGS);
-            if pass == 0 {
-                state.roll_back();
-                let mut all = rim;
-                all.extend_from_slice(&plan.touched);
-                all.extend_from_slice(&before);
-                let all = state.region(&all, 0);
-                sums_before = sums(state, &all);
-                continue;
-            }
-            let mut all = before.clone();
-            all.extend_from_slice(&rim);
-            let all = state.region(&all, 0);
-            let region = state.region(&plan.touched, RINGS - 1);
-            state.remember(&region);
-            let mean = self.total.members.mean() * state.length;
-            let aim = Aim { mean, straightness: self.straightness, border: self.border };
-            self.local.balance(state, &region, &rim, &aim, STEPS);
-            if state.has_bad_panel(&plan.touched_alive(state), LEAST_SHAPE) {
-                return None;
-            }
-            let all = state.region(&all, 0);
-            return Some((self.total - sums_before + sums(state, &all), all));
+        let mut around = state.region(&plan.touched, RINGS);
+        plan.replay(state)?;
+        around.extend(state.region(&plan.touched, RINGS));
+        // Removed nodes count before, made ones after: what the sums cover is known only now.
+        state.roll_back();
+        around.extend_from_slice(&plan.touched);
+        let near = state.region(&around, 0);
+        let before = sums(state, &near);
+
+        plan.replay(state)?;
+        let rim = state.region(&plan.touched, RINGS);
+        let region = state.region(&plan.touched, RINGS - 1);
+        state.remember(&region);
+        let mean = self.total.members.mean() * state.length;
+        let aim = Aim { mean, straightness: self.straightness, border: self.border };
+        self.local.balance(state, &region, &rim, &aim, STEPS);
+        if state.has_bad_panel(&plan.touched_alive(state), LEAST_SHAPE) {
+            return None;
         }
-        None
+        let near = state.region(&around, 0);
+        Some((self.total - before + sums(state, &near), near))
     }
 }
 
@@ -241,6 +237,14 @@ impl Plan {
         let region = state.region(&region, 0);
         self.change += residual(state, &region) - before;
         self.steps.push((operation, a, b));
+        Some(())
+    }
+
+    /// Make the operations again, in the state that they were drawn in.
+    fn replay(&self, state: &mut State) -> Option<()> {
+        for &(operation, a, b) in &self.steps {
+            operation.apply(state, a, b).ok()?;
+        }
         Some(())
     }
 

@@ -451,9 +451,9 @@ mod tests {
                 state.relax(&alive, 2);
             }
             if rng.u8(..3) == 0 {
-                state.roll_back()
+                state.roll_back();
             } else {
-                state.commit()
+                state.commit();
             }
             state.grid.mesh.check().expect("valid");
             assert_kept(&state.grid);

@@ -1,0 +1,475 @@
+//! Grids that are as symmetric as their surface.
+//!
+//! The whole pipeline runs on one part of the surface, of which all others are images: half of it, or the
+//! wedge between two mirror planes or between a plane and its image. The part's grid and its images are joined
+//! along the cuts. Then the whole is relaxed once more, so that lines run smoothly across them, and every node
+//! is put at the mean of what its images say, which makes it symmetric again to rounding.
+
+use super::{Scale, check, effort, lay, nodes_for, sampling, wishes};
+use crate::error::{Error, Result};
+use crate::grid::{Grid, Place};
+use crate::job::Job;
+use crate::merit::Sums;
+use crate::mesh::Mesh;
+use crate::recipe::{Recipe, Symmetry};
+use crate::run::{Run, SurfaceSummary, SymmetryReport};
+use crate::stages::measure::{irregular_nodes, measure};
+use crate::stages::relax;
+use crate::surface::group::Miss;
+use crate::surface::section::{Part, Wedge};
+use crate::surface::{ChainPoint, Group, Locator, Model, Motion, Surface, Symmetries};
+use glam::{DVec2, DVec3};
+
+/// An image may be off the surface by this share of the surface's size.
+const OFF_SIZE: f64 = 1e-6;
+/// Or by this share of l0.
+const OFF_LENGTH: f64 = 1e-3;
+/// Nodes nearer than this, over l0, are one.
+const SAME: f64 = 1e-3;
+/// Rounds of putting a node on the surface and on its plane.
+const ROUNDS: usize = 3;
+
+/// The group that the recipe asks for; None for none.
+///
+/// # Errors
+/// [`Error::Option`] where the surface does not have the symmetry, with where and by how much.
+pub fn group(
+    surface: &Surface,
+    model: &Model,
+    recipe: &Recipe,
+    length: f64,
+) -> Result<Option<Group>> {
+    if recipe.symmetry == Symmetry::None {
+        return Ok(None);
+    }
+    let tolerance = (OFF_SIZE * model.size()).max(OFF_LENGTH * length);
+    let symmetries = Symmetries::new(surface, tolerance);
+    let found = match recipe.symmetry {
+        Symmetry::None => return Ok(None),
+        Symmetry::Auto => return Ok(symmetries.largest()),
+        Symmetry::X => symmetries.mirror(DVec2::Y),
+        Symmetry::Y => symmetries.mirror(DVec2::X),
+        Symmetry::Xy => symmetries.both_mirrors(),
+        Symmetry::Turns(n) => symmetries.turns(n),
+    };
+    found.map(Some).map_err(|Miss { distance, point: p, image }| {
+        let at = |p: DVec3| format!("({:.3}, {:.3}, {:.3})", p.x, p.y, p.z);
+        Error::Option(format!(
+            "the surface does not have the symmetry {}: the image {} of its point {} is {distance:.3} m off it; \
+             leave the symmetry out, or give auto for the one it has",
+            recipe.symmetry,
+            at(image),
+            at(p)
+        ))
+    })
+}
+
+/// Lay a grid with the symmetry of `group` on `surface`, which was made from `model`.
+///
+/// # Errors
+/// As [`super::generate`].
+pub fn generate(
+    model: &Model,
+    surface: &Surface,
+    group: &Group,
+    recipe: &Recipe,
+    scale: &Scale,
+    fixed: Vec<String>,
+    job: &Job,
+) -> Result<Run> {
+    let (length, corner_angle) = (scale.length, recipe.corner_angle_deg.to_radians());
+    let wedge = wedge(surface, group, length);
+    let make = |l: f64| -> Result<Part> {
+        model.surface(&sampling(l, scale.nodes, recipe))?.part(
+            &wedge,
+            group.order(),
+            length,
+            corner_angle,
+        )
+    };
+    let on = std::cell::RefCell::new(Vec::new());
+    let (part, _) = wishes::surface(recipe, length, |l| {
+        let part = make(l)?;
+        on.replace(part.on);
+        Ok(part.surface)
+    })?;
+    let part = Part { surface: part, on: on.into_inner() };
+    let nodes = nodes_for(&part.surface, length);
+    let mut run = lay(model, &part.surface, recipe, &Scale { length, nodes }, Vec::new(), job)?;
+
+    let tolerance = SAME * length;
+    let whole = Whole { surface, locator: Locator::new(surface), group, wedge: &wedge, tolerance };
+    let part_nodes = run.grid.xyz.len();
+    for stage in &mut run.stages {
+        let Some(grid) = &stage.grid else { continue };
+        let (grid, _) = whole.join(&part, grid)?;
+        stage.quality = Some(measure(&grid, surface, length, &recipe.measure));
+        stage.grid = Some(grid);
+    }
+    let (joined, orbits) = whole.join(&part, &run.grid)?;
+    let mut relaxed = joined.clone();
+    let budget = effort::budgeted(recipe, scale.nodes);
+    relax::relax(surface, &mut relaxed, &budget, job);
+    whole.symmetrize(&mut relaxed, &orbits);
+    let merit = |grid: &Grid| {
+        Sums::whole(grid, surface, length, recipe.measure.lambda).merit(recipe.measure.lambda)
+    };
+    let grid = if merit(&relaxed) >= merit(&joined) { relaxed } else { joined };
+    let quality = measure(&grid, surface, length, &recipe.measure);
+    check(surface, &grid, &quality, length)?;
+    if let Some(last) = run.stages.last_mut() {
+        last.quality = Some(quality.clone());
+        last.grid = Some(grid.clone());
+    }
+    let mut warnings = fixed;
+    warnings.append(&mut run.warnings);
+    Ok(Run {
+        surface: SurfaceSummary::new(model, surface),
+        symmetry: Some(SymmetryReport {
+            mirrors: group.mirrors().iter().map(|m| m.perp().to_array()).collect(),
+            rotations: group.turns,
+            centre: group.centre.to_array(),
+            part_nodes,
+        }),
+        irregular: irregular_nodes(&grid),
+        stopped: job.stopped(),
+        quality,
+        warnings,
+        grid,
+        ..run
+    })
+}
+
+/// The wedge of which all others are images.
+fn wedge(surface: &Surface, group: &Group, length: f64) -> Wedge {
+    let first = Symmetries::new(surface, OFF_LENGTH * length).cut(group);
+    let sectors = if group.mirror.is_some() { 2 * group.turns } else { group.turns };
+    let turn = group.mirror.is_none().then(|| Motion::turn(group.centre, 1, group.turns));
+    let second = Motion::turn(DVec2::ZERO, 1, sectors).image(first.extend(0.0)).truncate();
+    Wedge { centre: group.centre, rays: [first, second], turn }
+}
+
+/// Joins grids of the part to grids of the whole surface.
+struct Whole<'a> {
+    surface: &'a Surface,
+    locator: Locator<'a>,
+    group: &'a Group,
+    wedge: &'a Wedge,
+    tolerance: f64,
+}
+
+/// Which nodes are images of one another.
+struct Orbits {
+    /// Of each node of the part, its image under each motion.
+    images: Vec<Vec<u32>>,
+    /// The cuts that each node of the part is on.
+    on: Vec<[bool; 2]>,
+}
+
+impl Whole<'_> {
+    /// The grid made of the images of a part's grid.
+    ///
+    /// # Errors
+    /// [`Error::NoGrid`] where they do not fit together.
+    fn join(&self, part: &Part, grid: &Grid) -> Result<(Grid, Orbits)> {
+        let mut xyz = grid.xyz.clone();
+        let mut on: Vec<[bool; 2]> = grid.places.iter().map(|p| cuts(part, p)).collect();
+        let mut panels: Vec<[u32; 3]> = grid.mesh.triangles().collect();
+        let mut marked: Vec<(u32, u32)> =
+            grid.mesh.edges().filter(|&(a, b)| grid.mesh.is_feature_edge(a, b)).collect();
+        let mut outside: Vec<bool> = (0..xyz.len())
+            .map(|v| grid.mesh.is_boundary(v as u32) && !on[v].contains(&true))
+            .collect();
+        for (v, p) in xyz.iter_mut().enumerate() {
+            *p = self.on_cuts(on[v], *p);
+        }
+        let partner = match &self.wedge.turn {
+            None => Vec::new(),
+            Some(turn) => {
+                self.match_cuts(turn, &mut xyz, &mut on, &mut panels);
+                outside.resize(xyz.len(), false);
+                Self::partners(turn, &mut xyz, &on)
+            }
+        };
+        let motions = self.group.motions();
+        let images = self.images(&motions, &on, &partner);
+        let count = images.iter().flatten().max().map_or(0, |&v| v as usize + 1);
+        // Numbers in order of first use.
+        let mut number = vec![u32::MAX; count];
+        let mut all = Vec::new();
+        let mut images = images;
+        for g in 0..motions.len() {
+            for (v, image) in images.iter_mut().enumerate() {
+                let id = &mut number[image[g] as usize];
+                if *id == u32::MAX {
+                    *id = all.len() as u32;
+                    all.push(motions[g].image(xyz[v]));
+                }
+                image[g] = *id;
+            }
+        }
+        let mut joined = Vec::with_capacity(panels.len() * motions.len());
+        for (g, motion) in motions.iter().enumerate() {
+            joined.extend(panels.iter().map(|p| {
+                let [a, b, c] = p.map(|v| images[v as usize][g]);
+                if motion.mirrors() { [a, c, b] } else { [a, b, c] }
+            }));
+        }
+        let misfit = |message: String| Error::NoGrid {
+            at: all[0].to_array(),
+            message: format!("the part's grid and its images do not fit together: {message}"),
+            edge_length: 0.5 * self.tolerance / SAME,
+        };
+        let mesh = Mesh::from_triangles(all.len(), &joined).map_err(|e| misfit(e.to_string()))?;
+        marked.extend(self.marked_on_cuts(&xyz, &on, &panels));
+        let mut whole = Grid { places: Vec::new(), xyz: all, mesh };
+        for (a, b) in marked {
+            for g in 0..motions.len() {
+                whole.mesh.mark_feature(images[a as usize][g], images[b as usize][g])?;
+            }
+        }
+        self.place(&mut whole)?;
+        Ok((whole, Orbits { images, on }))
+    }
+
+    /// The point exactly on its cuts where they are mirror planes, or on the axis.
+    fn on_cuts(&self, on: [bool; 2], p: DVec3) -> DVec3 {
+        let (centre, off) = (self.wedge.centre, p.truncate() - self.wedge.centre);
+        if on == [true; 2] {
+            return centre.extend(p.z);
+        }
+        let ray = (0..2).find(|&i| on[i]).filter(|_| self.wedge.turn.is_none());
+        ray.map_or(p, |i| {
+            let along = self.wedge.rays[i];
+            (centre + along * off.dot(along)).extend(p.z)
+        })
+    }
+
+    /// Give both cuts the same nodes: what one lacks is put into its panel.
+    fn match_cuts(
+        &self,
+        turn: &Motion,
+        xyz: &mut Vec<DVec3>,
+        on: &mut Vec<[bool; 2]>,
+        panels: &mut Vec<[u32; 3]>,
+    ) {
+        for (from, to) in [(0, 1), (1, 0)] {
+            let wanted: Vec<DVec3> = (0..xyz.len())
+                .filter(|&v| on[v][from] && !on[v][to])
+                .map(|v| if from == 0 { turn.image(xyz[v]) } else { turn.preimage(xyz[v]) })
+                .collect();
+            for p in wanted {
+                if (0..xyz.len()).any(|w| on[w][to] && xyz[w].distance(p) < self.tolerance) {
+                    continue;
+                }
+                let mut edges = Vec::new();
+                for (i, panel) in panels.iter().enumerate() {
+                    for k in 0..3 {
+                        let (a, b) = (panel[k] as usize, panel[(k + 1) % 3] as usize);
+                        if on[a][to] && on[b][to] {
+                            let around = xyz[a].distance(p) + xyz[b].distance(p);
+                            edges.push((around - xyz[a].distance(xyz[b]), i, k));
+                        }
+                    }
+                }
+                let Some(&(_, i, k)) = edges.iter().min_by(|x, y| x.0.total_cmp(&y.0)) else {
+                    continue;
+                };
+                let [a, b, c] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| panels[i][k]);
+                let m = xyz.len() as u32;
+                xyz.push(p);
+                on.push(if to == 0 { [true, false] } else { [false, true] });
+                panels[i] = [a, m, c];
+                panels.push([m, b, c]);
+            }
+        }
+    }
+
+    /// Of each node on the second cut, the one on the first whose image it is; puts it exactly there.
+    fn partners(turn: &Motion, xyz: &mut [DVec3], on: &[[bool; 2]]) -> Vec<Option<u32>> {
+        let first: Vec<usize> = (0..xyz.len()).filter(|&v| on[v] == [true, false]).collect();
+        let mut partner = vec![None; xyz.len()];
+        for w in (0..xyz.len()).filter(|&w| on[w] == [false, true]) {
+            let p = turn.preimage(xyz[w]);
+            let nearest = first.iter().min_by(|&&a, &&b| {
+                xyz[a].distance_squared(p).total_cmp(&xyz[b].distance_squared(p))
+            });
+            if let Some(&v) = nearest {
+                partner[w] = Some(v as u32);
+                xyz[w] = turn.image(xyz[v]);
+            }
+        }
+        partner
+    }
+
+    /// A number for each node of the part under each motion, the same for the same node of the whole.
+    fn images(
+        &self,
+        motions: &[Motion],
+        on: &[[bool; 2]],
+        partner: &[Option<u32>],
+    ) -> Vec<Vec<u32>> {
+        let (turns, count) = (self.group.turns as usize, on.len());
+        let image = |v: usize, g: usize| -> u32 {
+            let (k, mirrored) = (g % turns, g >= turns);
+            let id = |v: usize, g: usize| (g * count + v) as u32;
+            // The motions that take the node to the same place.
+            match (on[v], self.wedge.turn.is_some()) {
+                ([true, true], _) => id(v, 0),
+                ([false, false], _) | ([true, false], true) => id(v, g),
+                ([false, true], true) => match partner[v] {
+                    Some(w) => id(w as usize, (k + 1) % turns),
+                    None => id(v, g),
+                },
+                ([true, false], false) => id(v, k),
+                ([false, true], false) => {
+                    // The second plane's mirroring is the first one's and a turn after it.
+                    id(v, if mirrored { (k + turns - 1) % turns } else { k })
+                }
+            }
+        };
+        (0..count).map(|v| (0..motions.len()).map(|g| image(v, g)).collect()).collect()
+    }
+
+    /// Edges on cuts that lie on features of the whole.
+    fn marked_on_cuts(
+        &self,
+        xyz: &[DVec3],
+        on: &[[bool; 2]],
+        panels: &[[u32; 3]],
+    ) -> Vec<(u32, u32)> {
+        let mut marked = Vec::new();
+        if self.surface.features.is_empty() {
+            return marked;
+        }
+        for p in panels {
+            for k in 0..3 {
+                let (a, b) = (p[k] as usize, p[(k + 1) % 3] as usize);
+                let cut = (0..2).any(|i| on[a][i] && on[b][i]);
+                let near = |p: DVec3| self.on_feature(p, 0.02 * self.tolerance / SAME).is_some();
+                if cut && near(xyz[a]) && near(xyz[b]) && near((xyz[a] + xyz[b]) * 0.5) {
+                    marked.push((a as u32, b as u32));
+                }
+            }
+        }
+        marked
+    }
+
+    /// The place on a feature of the whole within `slack` metres.
+    fn on_feature(&self, p: DVec3, slack: f64) -> Option<ChainPoint> {
+        let carrier = &self.surface.carrier;
+        let mut best: Option<(f64, ChainPoint)> = None;
+        for (c, chain) in self.surface.features.iter().enumerate() {
+            for k in 0..chain.segments.len() {
+                let ends = [k, (k + 1) % chain.vertices.len()].map(|k| chain.vertices[k]);
+                let [a, b] = ends.map(|v| carrier.points[v as usize]);
+                let d = b - a;
+                let f = ((p - a).dot(d) / d.length_squared()).clamp(0.0, 1.0);
+                let off = (a + d * f).distance(p);
+                if off <= slack && best.is_none_or(|(least, _)| off < least) {
+                    let s = chain.arc[k] + (chain.arc[k + 1] - chain.arc[k]) * f;
+                    best = Some((off, ChainPoint { chain: c as u32, s }));
+                }
+            }
+        }
+        best.map(|b| b.1)
+    }
+
+    /// Find the places of all nodes.
+    fn place(&self, grid: &mut Grid) -> Result<()> {
+        let surface = self.surface;
+        let missing =
+            || Error::Surface("the surface has no boundary where the grid has one".into());
+        let places: Option<Vec<Place>> = grid
+            .xyz
+            .iter()
+            .enumerate()
+            .map(|(v, &p)| {
+                let v = v as u32;
+                if grid.mesh.is_boundary(v) {
+                    let at = self.locator.nearest_on_loops(p)?;
+                    let chain = &surface.loops[at.chain as usize];
+                    let corner =
+                        chain.corners.iter().map(|&k| chain.arc[k as usize]).find(|&s| {
+                            chain.xyz(&surface.carrier, s).distance(p) <= self.tolerance
+                        });
+                    return Some(match corner {
+                        Some(s) => Place::Corner(ChainPoint { s, ..at }),
+                        None => Place::Boundary(at),
+                    });
+                }
+                let fixed = surface
+                    .fixed
+                    .iter()
+                    .find(|f| surface.carrier.xyz(f).distance(p) <= self.tolerance);
+                if let Some(&f) = fixed {
+                    return Some(Place::Fixed(f));
+                }
+                let along = !grid.mesh.along_features(v).is_empty();
+                let feature = along.then(|| self.on_feature(p, self.tolerance / SAME)).flatten();
+                match feature {
+                    Some(at) => Some(Place::Feature(at)),
+                    None => self.locator.nearest(p).map(Place::Interior),
+                }
+            })
+            .collect();
+        grid.places = places.ok_or_else(missing)?;
+        Ok(())
+    }
+
+    /// Put every node at the mean of what its images say, on the exact surface.
+    fn symmetrize(&self, grid: &mut Grid, orbits: &Orbits) {
+        let motions = self.group.motions();
+        for (v, images) in orbits.images.iter().enumerate() {
+            let on = orbits.on[v];
+            if self.wedge.turn.is_some() && on == [false, true] {
+                continue;
+            }
+            let said = images.iter().zip(&motions).map(|(&i, m)| m.preimage(grid.xyz[i as usize]));
+            let mut p = said.sum::<DVec3>() / motions.len() as f64;
+            for _ in 0..ROUNDS {
+                p = self.on_cuts(on, p);
+                p = self.foot(&grid.places[images[0] as usize], p);
+            }
+            p = self.on_cuts(on, p);
+            for (&i, m) in images.iter().zip(&motions) {
+                grid.xyz[i as usize] = m.image(p);
+            }
+        }
+        // The places of images are where they are now; they were there before.
+        if let Err(e) = self.place(grid) {
+            unreachable!("a boundary does not go away: {e}");
+        }
+    }
+
+    /// The exact point of the surface, or of the line that the place is on, nearest to `p`.
+    fn foot(&self, place: &Place, p: DVec3) -> DVec3 {
+        let surface = self.surface;
+        match place {
+            Place::Interior(at) => surface.foot(&surface.carrier.follow(at, p), p),
+            Place::Boundary(_) => {
+                let Some(at) = self.locator.nearest_on_loops(p) else { return p };
+                surface.loops[at.chain as usize].foot(surface, at.s, p)
+            }
+            Place::Feature(at) => {
+                let at = self.on_feature(p, f64::INFINITY).unwrap_or(*at);
+                surface.features[at.chain as usize].foot(surface, at.s, p)
+            }
+            Place::Corner(_) | Place::Fixed(_) => place.exact(surface),
+        }
+    }
+}
+
+/// The cuts that a place of the part is on.
+fn cuts(part: &Part, place: &Place) -> [bool; 2] {
+    let (Place::Boundary(at) | Place::Corner(at)) = place else { return [false; 2] };
+    let chain = &part.surface.loops[at.chain as usize];
+    let (k, f) = chain.locate(at.s);
+    let n = chain.vertices.len();
+    let [a, b] = [k, k + 1].map(|k| part.on[chain.vertices[k % n] as usize]);
+    match f {
+        0.0 => a,
+        1.0 => b,
+        _ => [a[0] && b[0], a[1] && b[1]],
+    }
+}
