@@ -26,9 +26,17 @@ const SHORT: [f64; 3] = [0.13, 0.38, 0.75];
 const RIGHT: [f64; 3] = [0.62, 0.63, 0.62];
 const LONG: [f64; 3] = [0.82, 0.25, 0.12];
 
+/// What lies so far behind a panel is still seen, over l0: members and marks lie in their panels.
+const BEHIND: f64 = 0.1;
+
+/// Pieces of a member that are seen or not.
+const PIECES: u32 = 12;
+
 /// A picture in the making.
 pub struct Sheet {
     pixels: Pixmap,
+    /// Depth of the nearest panel at each pixel, metres.
+    depths: Vec<f64>,
     /// Pixels per metre.
     scale: f64,
     /// Of the least x and the largest y, metres.
@@ -53,27 +61,75 @@ impl Sheet {
             .ok_or("a grid without extent in the picture")?;
         pixels.fill(Color::WHITE);
         let indent = (width - (right - left) * scale) / 2.0;
-        Ok(Sheet { pixels, scale, corner: [left, top], indent, edge_length })
+        let depths = vec![f64::INFINITY; (pixels.width() * pixels.height()) as usize];
+        Ok(Sheet { pixels, depths, scale, corner: [left, top], indent, edge_length })
     }
 
-    /// Fill a panel.
+    /// Fill a panel where it is nearer than what is there.
     pub fn panel(&mut self, corners: [[f64; 3]; 3], brightness: f64) {
-        let corners = corners.map(|p| self.pixel(p));
-        // Rims that are not smoothed leave no gaps between pieces.
-        let paint = Paint { anti_alias: false, ..paint([brightness; 3]) };
-        self.area(&corners, &paint);
+        let [a, b, c] = corners.map(|p| self.pixel(p));
+        let area = cross(a, b, c);
+        let grey = (255.0 * brightness).round() as u8;
+        let bound = |k: usize, size: u32| {
+            let low = a[k].min(b[k]).min(c[k]).floor().max(0.0) as u32;
+            let high = a[k].max(b[k]).max(c[k]).ceil() as u32 + 1;
+            low..high.min(size)
+        };
+        let width = self.pixels.width();
+        let (columns, rows) = (bound(0, width), bound(1, self.pixels.height()));
+        for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
+            let p = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+            let share = [cross(p, b, c) / area, cross(a, p, c) / area, cross(a, b, p) / area];
+            // Not so for panels seen edge on, whose shares are no numbers.
+            if !share.iter().all(|&s| s >= 0.0) {
+                continue;
+            }
+            let depth = (0..3).map(|k| share[k] * corners[k][2]).sum();
+            let place = (y * width + x) as usize;
+            if depth < self.depths[place] {
+                self.depths[place] = depth;
+                self.pixels.data_mut()[4 * place..4 * place + 3].fill(grey);
+            }
+        }
     }
 
-    /// Draw a member of this length over l0.
+    /// Draw a member of this length over l0 where it is seen.
     pub fn member(&mut self, a: [f64; 3], b: [f64; 3], length: f64) {
-        let line = [a, b].map(|p| self.pixel(p));
-        self.line(&line, self.size(WIDTH).max(1.0), colour(length));
+        let at = |f: f64| [0, 1, 2].map(|k| a[k] + f * (b[k] - a[k]));
+        let share = |k: u32| f64::from(k) / f64::from(PIECES);
+        let width = self.size(WIDTH).max(1.0);
+        let mut start = None;
+        for k in 0..=PIECES {
+            let seen = k < PIECES && self.sees(at(share(k) + 0.5 / f64::from(PIECES)));
+            match (seen, start) {
+                (true, None) => start = Some(k),
+                (false, Some(first)) => {
+                    let line = [at(share(first)), at(share(k))].map(|p| self.pixel(p));
+                    self.line(&line, width, colour(length));
+                    start = None;
+                }
+                _ => {}
+            }
+        }
     }
 
-    /// Mark an irregular node.
+    /// Mark an irregular node, if it is seen.
     pub fn mark(&mut self, at: [f64; 3], excess: i64) {
-        let radius = self.size(MARK).max(2.5);
-        self.dot(self.pixel(at), radius, if excess < 0 { 0.0 } else { 1.0 });
+        if self.sees(at) {
+            let radius = self.size(MARK).max(2.5);
+            self.dot(self.pixel(at), radius, if excess < 0 { 0.0 } else { 1.0 });
+        }
+    }
+
+    /// Whether no panel hides a place. The pixels round about count too: where a panel is seen almost edge on,
+    /// depths change much from one pixel to the next.
+    fn sees(&self, at: [f64; 3]) -> bool {
+        let [x, y] = self.pixel(at).map(|x| x.floor() as i64);
+        let [width, height] = [self.pixels.width(), self.pixels.height()].map(i64::from);
+        let round_about = (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| (x, y)));
+        let inside = round_about.filter(|&(x, y)| x >= 0 && y >= 0 && x < width && y < height);
+        let mut depths = inside.map(|(x, y)| self.depths[(y * width + x) as usize]);
+        depths.any(|depth| at[2] - BEHIND * self.edge_length <= depth)
     }
 
     /// A dot of this brightness with a black rim; pixels.
@@ -98,16 +154,12 @@ impl Sheet {
 
     /// Fill a polygon of pixels.
     pub fn fill(&mut self, points: &[[f64; 2]], rgb: [f64; 3]) {
-        self.area(points, &paint(rgb));
-    }
-
-    fn area(&mut self, points: &[[f64; 2]], paint: &Paint) {
         let mut path = PathBuilder::new();
         trace(&mut path, points);
         path.close();
         let Some(path) = path.finish() else { return };
         let rule = FillRule::Winding;
-        self.pixels.fill_path(&path, paint, rule, Transform::identity(), None);
+        self.pixels.fill_path(&path, &paint(rgb), rule, Transform::identity(), None);
     }
 
     /// Left end of the legend's ground line, pixels.
@@ -132,6 +184,11 @@ impl Sheet {
     fn size(&self, length: f64) -> f64 {
         (length * self.edge_length * self.scale).min(MOST)
     }
+}
+
+/// Twice the area of a triangle, with its sign.
+fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
 fn trace(path: &mut PathBuilder, points: &[[f64; 2]]) {

@@ -104,21 +104,19 @@ pub const EVERY: [Bar; 11] = [
     bar(Seconds, 20.0),
 ];
 
-/// Further built-in surfaces, of every shape, at their own edge lengths.
-pub const FURTHER: [&str; 15] = [
+/// Further built-in surfaces, of every shape, at their own edge lengths: long, lying over itself, with many
+/// holes, with sharp tips, with an irregular outline, with two loops, overhanging, with a handle, closed, creased.
+pub const FURTHER: [&str; 12] = [
     "ribbon",
     "ramp",
     "skylights",
     "tripod",
     "sail",
     "wave",
-    "barrel",
-    "cone",
     "tower",
     "onion",
     "ring",
     "torus",
     "pleats",
-    "pyramid",
     "vault",
 ];

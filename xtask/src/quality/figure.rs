@@ -140,6 +140,7 @@ impl Figure {
             Mu | Spread => format!("{value:.3}"),
             Shape | BorderShape | BorderSpread | AreaRatio => format!("{value:.4}"),
             OffLength => format!("{:.1}", 100.0 * value),
+            OffSurface | OffBoundary if value == 0.0 => "0".to_owned(),
             OffSurface | OffBoundary => format!("{value:.0e}"),
             Seconds => format!("{value:.1}"),
         }
