@@ -58,6 +58,8 @@ pub struct Lengths {
 const MEMBERS: [f64; 2] = [0.64, 1.42];
 /// Members may be off a wanted direction by so much in the mean, radians, before it counts.
 const ASTRAY: f64 = 0.03;
+/// Members shorter than this, over l0, are hardly ever worth it.
+const LEAST: f64 = 0.61;
 /// Panels of a lower shape q are beyond what is wanted.
 const SHAPE: f64 = 0.68;
 
@@ -137,7 +139,7 @@ impl Sums {
             self.border_members.count(length);
         }
         let beyond = (MEMBERS[0] - length).max(length - MEMBERS[1]).max(0.0);
-        self.excess += beyond * beyond;
+        self.excess += beyond * beyond + (LEAST - length).max(0.0);
     }
 
     fn panel(&mut self, grid: &Grid, surface: &Surface, t: [u32; 3], at_border: bool) {
