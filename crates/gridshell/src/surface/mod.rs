@@ -111,11 +111,21 @@ impl Surface {
     }
 
     /// The foot of `xyz` on the exact surface near the carrier point `point`: on the patch of that point's
-    /// triangle. On a mesh, the carrier point.
+    /// triangle, or of one beside it where that is nearer. On a mesh, the carrier point.
     pub fn foot(&self, point: &SurfacePoint, xyz: DVec3) -> DVec3 {
-        match self.shapes.get(self.carrier.patch[point.triangle as usize] as usize) {
-            Some(shape) => shape.project(self.carrier.uv_at(point), xyz).1,
-            None => self.carrier.xyz(point),
-        }
+        let carrier = &self.carrier;
+        let patch = |t: u32| carrier.patch[t as usize];
+        let on = |p: &SurfacePoint| {
+            let shape = self.shapes.get(patch(p.triangle) as usize)?;
+            Some(shape.project(carrier.uv_at(p), xyz).1)
+        };
+        let Some(own) = on(point) else { return carrier.xyz(point) };
+        // The carrier's edges cut corners of those between patches: a point just beyond one may be nearest to the
+        // triangle before it.
+        let beside = carrier.neighbors[point.triangle as usize].into_iter();
+        let others = beside.filter(|&t| t != carrier::NONE && patch(t) != patch(point.triangle));
+        others
+            .filter_map(|triangle| on(&SurfacePoint { triangle, bary: [1.0 / 3.0; 3] }))
+            .fold(own, |a, b| if b.distance(xyz) < a.distance(xyz) { b } else { a })
     }
 }
