@@ -1,6 +1,5 @@
 //! How much work a grid is worth: the recipe's counts are for grids of up to two thousand nodes, larger ones get
-//! fewer draws and candidates, so that the time per node stays within a factor of two from 2,000 to 100,000
-//! nodes.
+//! fewer draws, candidates and heats, so that the time per node never grows; small ones get more candidates.
 //!
 //! What many draws and candidates are for, hitting upon a lattice that fits all borders at once, pays less on
 //! large grids: their borders are long, every lattice fits some of it, and the average over it hardly differs
