@@ -86,11 +86,11 @@ impl Sums {
     /// The sums over a whole grid.
     pub fn whole(grid: &Grid, surface: &Surface, length: f64, lambda: f64) -> Sums {
         let all: Vec<u32> = grid.mesh.vertices().collect();
-        Sums::over(grid, surface, length, lambda, &all, |_| true)
+        Sums::over(grid, surface, length, lambda, &all, |_| true, |v| delta(grid, v))
     }
 
     /// The sums over these nodes and the members and panels at them, for members of `length` metres. `inside`
-    /// says whether a node is one of them.
+    /// says whether a node is one of them, `delta` gives the angle fluency index of a regular one inside.
     pub fn over(
         grid: &Grid,
         surface: &Surface,
@@ -98,6 +98,7 @@ impl Sums {
         lambda: f64,
         nodes: &[u32],
         inside: impl Fn(u32) -> bool,
+        mut delta: impl FnMut(u32) -> f64,
     ) -> Sums {
         let mesh = &grid.mesh;
         let mut sums = Sums::default();
@@ -109,7 +110,7 @@ impl Sums {
             let at_border = mesh.is_boundary(v);
             if !at_border && off == 0 {
                 sums.regular += 1.0;
-                sums.delta += delta(grid, v);
+                sums.delta += delta(v);
             }
             if !at_border && let Some(off) = off_direction(grid, surface, v) {
                 sums.guided += 1.0;

@@ -16,6 +16,10 @@ use glam::{DMat2, DVec2, DVec3};
 /// Conjugate-gradient steps in a Gauss-Newton step, at most.
 const SOLVER_STEPS: usize = 200;
 
+/// Members shorter than this, over the mean one, resist more firmly, and by how much.
+const SHORT: f64 = 0.67;
+const FIRMNESS: f64 = 2.0;
+
 /// No node straight across.
 const NONE: u32 = u32::MAX;
 
@@ -41,6 +45,8 @@ pub(super) struct System {
     held: Vec<u8>,
     /// Weighted mean length at the last linearisation, metres.
     pub mean: f64,
+    /// Chords below this resist being short more firmly, metres.
+    short: f64,
     /// The directions in which each node may move there.
     frames: Vec<[DVec3; 2]>,
     diagonal: Vec<DMat2>,
@@ -88,6 +94,7 @@ impl System {
             columns,
             held,
             mean: 0.0,
+            short: 0.0,
             frames: Vec::new(),
             diagonal: vec![DMat2::ZERO; mesh.slots()],
             inverse: vec![DMat2::ZERO; mesh.slots()],
@@ -111,6 +118,7 @@ impl System {
         let graded = !surface.scale.is_empty();
         Members {
             xyz: &grid.xyz,
+            short: self.short,
             normals: self.bends.then(|| collect(places.len(), |i| places[i].normal(surface))),
             scales: graded.then(|| collect(places.len(), |i| places[i].scale(surface))),
         }
@@ -118,7 +126,9 @@ impl System {
 
     /// Linearise at the grid's positions and solve for the move of every node; gives the energy there too.
     pub fn step(&mut self, surface: &Surface, grid: &Grid) -> (Vec<DVec3>, f64) {
-        let members = self.members(surface, grid);
+        let mut members = self.members(surface, grid);
+        self.short = SHORT * self.total(|i, j| members.chord(i, j)) / self.weights;
+        members.short = self.short;
         self.mean = self.total(|i, j| members.length(i, j)) / self.weights;
         self.frames = collect(grid.xyz.len(), |i| directions(surface, grid, i));
         let right = self.assemble(&members);
@@ -212,11 +222,12 @@ impl System {
         let mut through = DVec3::ZERO;
         for (k, &j) in ring.iter().enumerate() {
             let other = &self.frames[j as usize];
-            let (length, u) = members.span(i, j as usize);
+            let (length, slope, u) = members.span(i, j as usize);
             let rate = members.rate(i, j as usize);
-            let stiffness = self.weight(i, j as usize) * rate * rate;
+            let weight_of_length = self.weight(i, j as usize);
+            let stiffness = weight_of_length * slope * slope;
             let (a, b) = (in_frame(frame, u), in_frame(other, u));
-            right += a * (stiffness / rate * (length - self.mean));
+            right += a * (weight_of_length * slope * (length - self.mean));
             diagonal += outer(a, a) * stiffness;
             let mut block = -outer(a, b) * stiffness;
             let turn = between(frame, other);
@@ -280,34 +291,40 @@ impl System {
 /// Positions, normals where lengths are arcs, and scales where lengths are to vary.
 struct Members<'a> {
     xyz: &'a [DVec3],
+    short: f64,
     normals: Option<Vec<DVec3>>,
     scales: Option<Vec<f64>>,
 }
 
 impl Members<'_> {
+    /// Chord from node `i` to `j` over the scale there.
+    fn chord(&self, i: usize, j: usize) -> f64 {
+        self.xyz[i].distance(self.xyz[j]) * self.rate(i, j)
+    }
+
     /// Length from node `i` to `j`: of the chord, or where the surface bends sharply of the arc above it; over the
-    /// scale there.
+    /// scale there. What a chord lacks to `short` counts several times.
     fn length(&self, i: usize, j: usize) -> f64 {
-        self.xyz[i].distance(self.xyz[j]) * self.stretch(i, j)
+        let chord = self.chord(i, j);
+        chord * self.arc(i, j) - FIRMNESS * (self.short - chord).max(0.0)
     }
 
-    fn stretch(&self, i: usize, j: usize) -> f64 {
-        self.normals.as_ref().map_or(1.0, |n| arc_over_chord(n[i], n[j])) * self.rate(i, j)
+    fn arc(&self, i: usize, j: usize) -> f64 {
+        self.normals.as_ref().map_or(1.0, |n| arc_over_chord(n[i], n[j]))
     }
 
-    /// How fast the length from node `i` to `j` grows with the distance: one over the scale.
+    /// How fast the chord from node `i` to `j` grows with the distance: one over the scale.
     fn rate(&self, i: usize, j: usize) -> f64 {
         self.scales.as_ref().map_or(1.0, |s| 2.0 / (s[i] + s[j]))
     }
 
-    /// Length from node `i` to `j`, and the direction there.
-    fn span(&self, i: usize, j: usize) -> (f64, DVec3) {
-        let chord = self.xyz[j] - self.xyz[i];
-        let length = chord.length();
-        if length == 0.0 {
-            return (0.0, DVec3::ZERO);
-        }
-        (length * self.stretch(i, j), chord / length)
+    /// Length from node `i` to `j`, how fast it grows with the distance (arcs as if they were chords), and the
+    /// direction there.
+    fn span(&self, i: usize, j: usize) -> (f64, f64, DVec3) {
+        let rate = self.rate(i, j);
+        let direction = (self.xyz[j] - self.xyz[i]).normalize_or_zero();
+        let firm = if self.chord(i, j) < self.short { 1.0 + FIRMNESS } else { 1.0 };
+        (self.length(i, j), rate * firm, direction)
     }
 
     /// How the line from `j` over `i` to `k` bends.

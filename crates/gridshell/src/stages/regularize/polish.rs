@@ -12,12 +12,14 @@ use super::state::{Few, State};
 use crate::balance::{self, balance};
 use crate::job::Job;
 use crate::math::trig::{exp, ln};
-use crate::merit::Sums;
+use crate::merit::{self, Sums};
 use crate::recipe::Recipe;
 use smallvec::SmallVec;
 
-/// Rings of nodes that move with an operation.
-const RINGS: usize = 3;
+/// Rings of nodes that move with an operation: first a few, to see whether it is worth more, then all.
+const RINGS: [usize; 2] = [2, 3];
+/// What all rings may at best win over the few, in units of what one more irregular node on the border costs.
+const MORE: f64 = 0.5;
 /// Steps of balancing round an operation.
 const STEPS: usize = 2;
 /// Panels below this shape are refused.
@@ -75,6 +77,8 @@ struct Polish<'a, 'b> {
     border: f64,
     total: Sums,
     merit: f64,
+    /// Angle fluency index of the nodes as they are, NaN where it is not known.
+    deltas: Vec<f64>,
     temperature: f64,
     unit: f64,
     best: (f64, crate::grid::Grid),
@@ -89,6 +93,7 @@ impl<'a, 'b> Polish<'a, 'b> {
             border: recipe.border_weight(),
             total: Sums::default(),
             merit: 0.0,
+            deltas: Vec::new(),
             temperature: 0.0,
             unit: 0.0,
             best: (f64::NEG_INFINITY, state.grid.clone()),
@@ -110,6 +115,7 @@ impl<'a, 'b> Polish<'a, 'b> {
         let state = &*self.state;
         self.total = Sums::whole(&state.grid, state.surface, state.length, state.lambda);
         self.merit = self.total.merit(state.lambda);
+        self.deltas.clear();
         let more = Sums { residual: self.total.residual + 1.0 - state.lambda, ..self.total };
         self.unit = self.merit - more.merit(state.lambda);
     }
@@ -122,7 +128,11 @@ impl<'a, 'b> Polish<'a, 'b> {
         if hoped.merit(self.state.lambda) + self.unit * HOPE < bar {
             return false;
         }
-        let kept = self.carry_out(&plan).filter(|(after, _)| after.merit(self.state.lambda) >= bar);
+        let [few, all] = RINGS;
+        let kept = self
+            .carry_out(&plan, few, bar - MORE * self.unit)
+            .inspect(|_| self.state.roll_back())
+            .and_then(|_| self.carry_out(&plan, all, bar));
         let Some((after, rim)) = kept else {
             self.state.roll_back();
             report.refused += 1;
@@ -131,6 +141,11 @@ impl<'a, 'b> Polish<'a, 'b> {
         self.state.refresh(&plan.touched);
         self.state.refresh(&rim);
         self.state.commit();
+        for &v in rim.iter().chain(&plan.touched) {
+            if let Some(known) = self.deltas.get_mut(v as usize) {
+                *known = f64::NAN;
+            }
+        }
         self.total = after;
         self.merit = after.merit(self.state.lambda);
         for step in &plan.steps {
@@ -171,12 +186,10 @@ impl<'a, 'b> Polish<'a, 'b> {
         for _ in 0..MOST_FLIPS {
             let touched = self.state.touched();
             let near = self.state.region(&touched, 1);
-            let mesh = &self.state.grid.mesh;
+            let state = &*self.state;
             let best = near
                 .iter()
-                .flat_map(|&v| mesh.ring(v).iter().map(move |&w| (v, w)))
-                .filter(|&(v, w)| v < w)
-                .filter_map(|(v, w)| Some((self.state.flip_change(v, w)?, v, w)))
+                .flat_map(|&v| state.flips_at(v).map(move |(change, w)| (change, v, w)))
                 .min_by(|x, y| x.0.total_cmp(&y.0));
             match best {
                 Some((gain, v, w)) if gain < -1e-9 => {
@@ -188,22 +201,29 @@ impl<'a, 'b> Polish<'a, 'b> {
         Some(())
     }
 
-    /// Make the planned operations and balance round them: the sums that they leave and the nodes round them,
-    /// or None where a panel is bad.
-    fn carry_out(&mut self, plan: &Plan) -> Option<(Sums, Few)> {
+    /// Make the planned operations and balance `rings` rings round them: the sums that they leave and the nodes
+    /// round them, or None where a panel is bad or the merit is below `bar`.
+    fn carry_out(&mut self, plan: &Plan, rings: usize, bar: f64) -> Option<(Sums, Few)> {
         let state = &mut *self.state;
-        let mut around = state.region(&plan.touched, RINGS);
+        let mut around = state.region(&plan.touched, rings);
         plan.replay(state)?;
-        around.extend(state.region(&plan.touched, RINGS));
+        around.extend(state.region(&plan.touched, rings));
         // Removed nodes count before, made ones after: what the sums cover is known only now.
         state.roll_back();
         around.extend_from_slice(&plan.touched);
         let near = state.region(&around, 0);
-        let before = sums(state, &near);
+        self.deltas.resize(state.grid.mesh.slots(), f64::NAN);
+        let before = sums(state, &near, |v| {
+            let known = &mut self.deltas[v as usize];
+            if known.is_nan() {
+                *known = merit::delta(&state.grid, v);
+            }
+            *known
+        });
 
         plan.replay(state)?;
-        let rim = state.region(&plan.touched, RINGS);
-        let region = state.region(&plan.touched, RINGS - 1);
+        let rim = state.region(&plan.touched, rings);
+        let region = state.region(&plan.touched, rings - 1);
         state.remember(&region);
         let mean = self.total.members.mean() * state.length;
         let aim = Aim { mean, straightness: self.straightness, border: self.border };
@@ -212,7 +232,8 @@ impl<'a, 'b> Polish<'a, 'b> {
             return None;
         }
         let near = state.region(&around, 0);
-        Some((self.total - before + sums(state, &near), near))
+        let after = self.total - before + sums(state, &near, |v| merit::delta(&state.grid, v));
+        (after.merit(state.lambda) >= bar).then_some((after, near))
     }
 }
 
@@ -259,8 +280,7 @@ fn residual(state: &State, region: &[u32]) -> f64 {
 }
 
 /// The sums over the region last gathered.
-fn sums(state: &State, region: &[u32]) -> Sums {
-    Sums::over(&state.grid, state.surface, state.length, state.lambda, region, |v| {
-        state.in_region(v)
-    })
+fn sums(state: &State, region: &[u32], delta: impl FnMut(u32) -> f64) -> Sums {
+    let inside = |v| state.in_region(v);
+    Sums::over(&state.grid, state.surface, state.length, state.lambda, region, inside, delta)
 }
