@@ -5,7 +5,8 @@
 //! where t is the part in the tangent plane: a line that bends only with the surface costs nothing, and when
 //! all three lines of a node run straight its opposite angles are equal (the two parts of Eq. 28 to 30).
 //! The weight w is 1, or more at members that touch the border. Where lengths are to vary, l is a member's length
-//! over the mean scale of its ends, and so are the two halves of a line.
+//! over the mean scale of its ends, and so are the two halves of a line. What a member's chord lacks to two thirds
+//! of l_mean counts threefold: no member is much shorter than the rest.
 //! Nodes move in their tangent plane, boundary nodes along the boundary, corners not at all: the linear
 //! system is solved for 3D moves projected to those spaces, by preconditioned conjugate gradients.
 

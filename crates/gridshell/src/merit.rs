@@ -29,7 +29,11 @@ pub struct Sums {
     pub members: Lengths,
     /// The members that touch the boundary.
     pub border_members: Lengths,
-    /// The panels that touch the boundary, and their shapes q (Eq. 25).
+    /// All panels, and their shapes q (Eq. 25).
+    pub panels: f64,
+    /// See `panels`.
+    pub shape: f64,
+    /// The panels that touch the boundary, and their shapes.
     pub border_panels: f64,
     /// See `border_panels`.
     pub border_shape: f64,
@@ -147,6 +151,8 @@ impl Sums {
         let p = t.map(|v| grid.xyz[v as usize]);
         let shape = shape(p);
         self.area += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).length();
+        self.panels += 1.0;
+        self.shape += shape;
         if at_border {
             self.border_panels += 1.0;
             self.border_shape += shape;
@@ -177,18 +183,21 @@ impl Sums {
         (disorder > PERFECT).then(|| 1.0 / disorder)
     }
 
-    /// Q, divided by one and what is beyond the guards of length spread, border, mean length, area, and of
+    /// Q, divided by one and what is beyond the guards of length spread, shape, border, mean length, area, and of
     /// single members and panels. Higher is better.
     pub fn merit(&self, lambda: f64) -> f64 {
         let over = |x: f64, limit: f64| (x - limit).max(0.0);
         // Members at the border cannot be as even as those inside.
         let share = self.border_members.count / self.members.count.max(1.0);
         let spread = (share * 0.13 * 0.13 + (1.0 - share) * 0.04 * 0.04).sqrt();
+        let share = self.border_panels / self.panels.max(1.0);
+        let even = share * 0.965 + (1.0 - share) * 0.992;
         let held_back = 8.0 * over(self.members.cv(), spread)
-            + 4.0 * over(self.border_members.cv(), 0.12)
+            + 6.0 * over(self.border_members.cv(), 0.12)
             + 3.0 * over(0.958, self.border_shape_mean())
+            + 8.0 * over(even, self.shape / self.panels.max(1.0))
             + 10.0 * over((self.members.mean() - 1.0).abs(), 0.01)
-            + 30.0 * over(0.986, self.area)
+            + 60.0 * over(0.988, self.area)
             + 20.0 * over(self.astray / self.guided.max(1.0), ASTRAY)
             + 8.0 * self.excess;
         self.fluency(lambda).unwrap_or(1.0 / PERFECT) / (1.0 + held_back)
@@ -227,6 +236,8 @@ impl Add for Sums {
             delta: self.delta + o.delta,
             members: self.members + o.members,
             border_members: self.border_members + o.border_members,
+            panels: self.panels + o.panels,
+            shape: self.shape + o.shape,
             border_panels: self.border_panels + o.border_panels,
             border_shape: self.border_shape + o.border_shape,
             area: self.area + o.area,
@@ -247,6 +258,8 @@ impl Sub for Sums {
             delta: self.delta - o.delta,
             members: self.members - o.members,
             border_members: self.border_members - o.border_members,
+            panels: self.panels - o.panels,
+            shape: self.shape - o.shape,
             border_panels: self.border_panels - o.border_panels,
             border_shape: self.border_shape - o.border_shape,
             area: self.area - o.area,

@@ -419,8 +419,8 @@ impl Default for Regularize {
             trials: 2000,
             most_trials: 60_000,
             candidates: 16,
-            heats: vec![[12, 30], [4, 100], [2, 340]],
-            most_polish: 20_000,
+            heats: vec![[12, 30], [4, 120], [3, 320]],
+            most_polish: 14_000,
             residual_weight: 0.6,
             temperature: [0.15, 0.03],
         }

@@ -16,8 +16,8 @@ use glam::{DMat2, DVec2, DVec3};
 /// Conjugate-gradient steps in a Gauss-Newton step, at most.
 const SOLVER_STEPS: usize = 200;
 
-/// Members shorter than this, over the mean one, resist more firmly, and by how much.
-const SHORT: f64 = 0.67;
+/// Chords shorter than this, over the mean one, resist more firmly, and by how much more.
+const SHORT: f64 = 0.66;
 const FIRMNESS: f64 = 2.0;
 
 /// No node straight across.

@@ -13,14 +13,14 @@ const FULL: f64 = 2000.0;
 /// Below so many nodes there are more candidates, as the root of this number over theirs.
 const SMALL: f64 = 1400.0;
 /// Fewest draws and candidates of a large grid (or the recipe's, where it asks for fewer).
-const LEAST_DRAWS: usize = 16;
-const LEAST_CANDIDATES: usize = 5;
+const LEAST_DRAWS: usize = 12;
+const LEAST_CANDIDATES: usize = 4;
 /// Fewest trials of polishing per irregular node, in the last heat.
-const LEAST_POLISH: usize = 20;
+const LEAST_POLISH: usize = 24;
 /// Fewest steps of packing, where a search comes after it.
 const LEAST_STEPS: usize = 300;
 /// Fewest trials of the search per irregular node.
-const LEAST_TRIALS: usize = 400;
+const LEAST_TRIALS: usize = 300;
 
 /// Carrier edges over l0: fine enough for nodes to walk smoothly and boundaries to be followed.
 const CARRIER_EDGE: f64 = 0.5;
@@ -49,7 +49,7 @@ pub fn budgeted(recipe: &Recipe, nodes: f64) -> Recipe {
     let last = regularize.heats.last().map_or(1, |h| h[1]).max(1);
     for [through, trials] in &mut regularize.heats {
         *through = cut(*through, share, 1);
-        *trials = cut(*trials, share.min(1.0), LEAST_POLISH * *trials / last);
+        *trials = cut(*trials, (share * share).min(1.0), LEAST_POLISH * *trials / last);
     }
     // A heat that lets through as many as the next only polishes twice.
     let all = std::mem::take(&mut regularize.heats);
