@@ -65,6 +65,8 @@ fn parse(text: impl Read) -> std::result::Result<Brep, (String, String)> {
                 .push("the file names no unit of length: taken as millimetres".into());
         }
     }
+    let precision = scene.units().precision.filter(|p| p.is_finite() && *p > 0.0);
+    reading.brep.tolerance = precision.unwrap_or(0.0) * reading.brep.unit_in_metres;
     let metres = DMat4::from_scale(DVec3::splat(reading.brep.unit_in_metres));
     for root in scene.root_definitions() {
         reading.definition(&root, metres, 0)?;

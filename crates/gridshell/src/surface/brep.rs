@@ -1,6 +1,7 @@
 //! The trimmed model as CAD files have it: faces over exact shapes, bounded by shared edges.
 
 use super::curve::Curve;
+use super::sew::Sewing;
 use super::shape::Shape;
 use glam::DVec3;
 
@@ -12,6 +13,10 @@ pub struct Brep {
     pub name: String,
     /// Length of the file's unit in metres (0.001 for millimetres).
     pub unit_in_metres: f64,
+    /// How far apart the file says that edges which belong together may lie, metres; 0 where it says nothing.
+    pub tolerance: f64,
+    /// What sewing did; None before.
+    pub sewing: Option<Sewing>,
     /// Vertex positions.
     pub vertices: Vec<DVec3>,
     /// Edges, each once, however many faces share it.

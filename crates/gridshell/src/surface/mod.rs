@@ -34,6 +34,7 @@ pub mod ruler;
 mod sample;
 mod seam;
 pub mod section;
+pub mod sew;
 pub mod shape;
 mod size;
 mod stretch;
@@ -52,8 +53,11 @@ pub use locate::Locator;
 pub use model::{Model, PolygonMesh, Sampling};
 pub use motion::Motion;
 pub use ruler::Ruler;
+pub use sew::{Sewing, sew};
 pub use shape::Shape;
 pub use tessellate::tessellate;
+
+pub(crate) use seam::bound;
 
 use glam::DVec3;
 use track::Tracks;
