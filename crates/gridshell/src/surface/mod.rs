@@ -36,6 +36,7 @@ mod seam;
 pub mod section;
 pub mod shape;
 mod size;
+pub mod source;
 mod stretch;
 pub mod tessellate;
 mod track;
@@ -53,6 +54,7 @@ pub use model::{Model, PolygonMesh, Sampling};
 pub use motion::Motion;
 pub use ruler::Ruler;
 pub use shape::Shape;
+pub use source::{Object, Source, Unit};
 pub use tessellate::tessellate;
 
 use glam::DVec3;
