@@ -18,7 +18,7 @@ pub use lines::{read_anchors, read_guides};
 pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
-use crate::surface::{Model, PolygonMesh, builtin, sew};
+use crate::surface::{Model, PolygonMesh, Source, builtin, sew};
 use std::path::Path;
 
 /// Extensions of the mesh formats.
@@ -89,13 +89,18 @@ fn read(path: &Path) -> Result<Model> {
 /// # Errors
 /// As [`load`].
 pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
-    match extension(path).as_str() {
+    let mut mesh = match extension(path).as_str() {
         "obj" => obj::read(path),
         "ply" => ply::read(path),
         "stl" => stl::read(path),
         "off" => off::read(path),
         _ => Err(unknown(path, MESH_FORMATS)),
+    }?;
+    // Most of these formats say nothing more of themselves.
+    if mesh.source.format.is_empty() {
+        mesh.source.format = Source::of_format(&extension(path).to_uppercase()).format;
     }
+    Ok(mesh)
 }
 
 /// Write a grid in the format of the path's extension. The file appears whole or not at all.

@@ -3,6 +3,7 @@
 use super::curve::Curve;
 use super::sew::Sewing;
 use super::shape::Shape;
+use super::source::Source;
 use glam::DVec3;
 
 /// A boundary representation in metres: what the CAD readers and the built-in surfaces make, and what
@@ -23,6 +24,11 @@ pub struct Brep {
     pub edges: Vec<BrepEdge>,
     /// Trimmed faces.
     pub faces: Vec<BrepFace>,
+    /// What the file says of itself.
+    pub source: Source,
+    /// For each face the place of its object in `source.objects`; empty where no objects are known. What drops
+    /// or adds faces keeps it in step.
+    pub object_of: Vec<u32>,
     /// What was skipped or repaired while reading, for the user.
     pub notes: Vec<String>,
 }

@@ -37,6 +37,7 @@ pub mod section;
 pub mod sew;
 pub mod shape;
 mod size;
+pub mod source;
 mod stretch;
 pub mod tessellate;
 mod track;
@@ -55,6 +56,7 @@ pub use motion::Motion;
 pub use ruler::Ruler;
 pub use sew::{Sewing, sew};
 pub use shape::Shape;
+pub use source::{Object, Source, Unit};
 pub use tessellate::tessellate;
 
 pub(crate) use seam::bound;

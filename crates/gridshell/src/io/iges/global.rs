@@ -1,4 +1,4 @@
-//! The global section: delimiters, unit of length, resolution.
+//! The global section: delimiters, unit of length, resolution, application.
 
 use super::Fault;
 use super::records::Records;
@@ -11,6 +11,8 @@ pub(super) struct Global {
     pub metres: f64,
     /// Smallest distance that counts, in units of the model; 0 where it is not given.
     pub resolution: f64,
+    /// The program that wrote the file.
+    pub application: String,
     /// The unit was not named.
     pub unit_guessed: bool,
 }
@@ -42,7 +44,9 @@ pub(super) fn read(records: &Records) -> Result<Global, Fault> {
         return Err(fault("its scale makes no sensible unit of length"));
     }
     let resolution = number(19).filter(|r| *r > 0.0).unwrap_or(0.0);
-    Ok(Global { marks, metres, resolution, unit_guessed: unit.is_none() })
+    let words = |k: usize| text(k).split_whitespace().collect::<Vec<_>>().join(" ");
+    let application = if words(5).is_empty() { words(6) } else { words(5) };
+    Ok(Global { marks, metres, resolution, application, unit_guessed: unit.is_none() })
 }
 
 /// The two delimiters, each given as `1Hx` or left out, and what follows.

@@ -22,6 +22,7 @@ mod trimmed;
 
 use crate::error::{Error, Result};
 use crate::surface::brep::Brep;
+use crate::surface::{Source, Unit};
 use directory::{Directory, Entry};
 use std::cell::{Cell, RefCell};
 use std::fs;
@@ -115,6 +116,8 @@ fn parse(bytes: &[u8]) -> std::result::Result<Brep, Fault> {
     let mut brep = file.model(global.metres)?;
     brep.unit_in_metres = global.metres;
     brep.tolerance = global.resolution * global.metres;
+    let unit = (!global.unit_guessed).then(|| Unit::of_metres(global.metres));
+    brep.source = Source { application: global.application, unit, ..Source::of_format("IGES") };
     let mut notes = file.notes.into_inner();
     if brep.faces.is_empty() {
         let why: Vec<String> = notes.iter().take(3).cloned().collect();

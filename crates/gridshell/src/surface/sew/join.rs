@@ -166,6 +166,7 @@ fn clean(brep: &mut Brep, pairs: &Pairs, tolerance: f64) -> Lost {
         })
         .collect();
     lost.edges = gone.iter().filter(|&&g| g).count();
+    let objects = std::mem::take(&mut brep.object_of);
     let mut faces = Vec::with_capacity(brep.faces.len());
     for (f, mut face) in std::mem::take(&mut brep.faces).into_iter().enumerate() {
         if pairs.twins.binary_search(&(f as u32)).is_ok() {
@@ -182,6 +183,7 @@ fn clean(brep: &mut Brep, pairs: &Pairs, tolerance: f64) -> Lost {
             lost.faces.push(f as u32 + 1);
             continue;
         }
+        brep.object_of.extend(objects.get(f));
         faces.push(face);
     }
     brep.faces = faces;
