@@ -25,7 +25,7 @@ pub const SIZE_SHARE: f64 = 2e-5;
 const FILE_SHARE: f64 = 1e-3;
 /// No tolerance above this share of the model's size is accepted.
 const MOST_SHARE: f64 = 0.02;
-/// Naked edges with another within so many tolerances are told.
+/// Naked edges with another within so many usual tolerances are told.
 const REACH: f64 = 32.0;
 
 /// What sewing found and did. Lengths in metres.
@@ -76,7 +76,7 @@ pub fn sew(brep: &mut Brep, tolerance: Option<f64>) -> Result<()> {
         told.push(joined(&sewing, brep));
         told.extend(lost.told(&pairs, tolerance));
     }
-    facing::look(&bounded, REACH * tolerance.max(usual), &mut sewing);
+    facing::look(&bounded, (REACH * usual).max(2.0 * tolerance), &mut sewing);
     if any {
         *brep = bounded;
     }

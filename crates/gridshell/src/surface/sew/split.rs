@@ -6,6 +6,9 @@ use glam::DVec3;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
+/// Vertices in one cell of this share of the tolerance are one heap.
+const HEAP: f64 = 0.125;
+
 /// A naked edge between two places where others end.
 pub(super) struct Piece {
     /// Index of the edge.
@@ -55,11 +58,8 @@ impl Union {
 
 /// Cut the naked edges.
 pub(super) fn pieces(brep: &Brep, naked: &Naked, tolerance: f64) -> Pieces {
-    let mut vertices: Vec<u32> =
-        naked.lines.iter().flat_map(|l| brep.edges[l.edge as usize].ends).collect();
-    vertices.sort_unstable();
-    vertices.dedup();
-    let mut clusters = clusters(brep, &vertices, tolerance);
+    let ends = naked.lines.iter().flat_map(|l| brep.edges[l.edge as usize].ends).collect();
+    let (vertices, mut clusters) = clusters(brep, ends, tolerance);
     // Places where each edge is split, and a vertex that lies there.
     let mut cuts: Vec<Vec<(f64, DVec3, u32)>> = vec![Vec::new(); naked.lines.len()];
     for &v in &vertices {
@@ -125,18 +125,32 @@ pub(super) fn pieces(brep: &Brep, naked: &Naked, tolerance: f64) -> Pieces {
     pieces
 }
 
-/// Vertices that lie together.
-fn clusters(brep: &Brep, vertices: &[u32], tolerance: f64) -> Union {
+/// Vertices that lie together, and one of each heap of them: copies of a part may lie on each other in thousands.
+fn clusters(brep: &Brep, ends: Vec<u32>, tolerance: f64) -> (Vec<u32>, Union) {
+    let cell = |v: u32| {
+        (brep.vertices[v as usize] / (HEAP * tolerance)).floor().to_array().map(|x| x as i64)
+    };
+    let mut heaps: Vec<([i64; 3], u32)> = ends.into_iter().map(|v| (cell(v), v)).collect();
+    heaps.sort_unstable();
+    heaps.dedup();
+    let mut union = Union::new(brep.vertices.len());
+    let mut vertices = Vec::new();
+    for heap in heaps.chunk_by(|a, b| a.0 == b.0) {
+        vertices.push(heap[0].1);
+        for (_, v) in &heap[1..] {
+            union.join(heap[0].1, *v);
+        }
+    }
+    vertices.sort_unstable();
     let place = |v: u32| GeomWithData::new(brep.vertices[v as usize].to_array(), v);
     let tree = RTree::bulk_load(vertices.iter().map(|&v| place(v)).collect());
-    let mut union = Union::new(brep.vertices.len());
-    for &v in vertices {
+    for &v in &vertices {
         let at = brep.vertices[v as usize].to_array();
         for other in tree.locate_within_distance(at, tolerance * tolerance) {
             union.join(v, other.data);
         }
     }
-    union
+    (vertices, union)
 }
 
 impl Piece {
