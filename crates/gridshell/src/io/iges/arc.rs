@@ -14,14 +14,13 @@ const WHOLE: f64 = 1e-9;
 pub(super) fn unit_circle(from: f64, sweep: f64) -> Vec<Piece> {
     let count = (sweep / FRAC_PI_2 - 1e-9).ceil().max(1.0);
     let half = 0.5 * sweep / count;
-    let (sine, cosine) = (trig::sin(half), trig::cos(half));
+    let cosine = trig::cos(half);
     (0..count as usize)
         .map(|i| {
             let a = from + 2.0 * half * i as f64;
             let b = if i + 1 == count as usize { from + sweep } else { a + 2.0 * half };
             let [p, m, q] = [a, a + half, b].map(|t| DVec2::new(trig::cos(t), trig::sin(t)));
             let corner = m / cosine;
-            debug_assert!(sine > 0.0);
             let points = vec![
                 DVec4::new(p.x, p.y, 0.0, 1.0),
                 DVec4::new(corner.x * cosine, corner.y * cosine, 0.0, cosine),

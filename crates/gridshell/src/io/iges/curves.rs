@@ -221,7 +221,7 @@ pub(super) fn plain(weights: Vec<f64>) -> Vec<f64> {
 pub(super) fn within(domain: [f64; 2], asked: [f64; 2]) -> [f64; 2] {
     let width = domain[1] - domain[0];
     let [a, b] = asked;
-    if !(a < b) || b - a < 1e-9 * width {
+    if (b - a).is_nan() || b - a < 1e-9 * width {
         return domain;
     }
     // Ends a rounding error away from the domain's are the domain's.

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::surface::{Sampling, Surface, sew, tessellate};
+use glam::DVec3;
 use std::f64::consts::PI;
 use std::fmt::Write;
 
@@ -145,9 +146,10 @@ fn inches_a_transformation_and_a_part_of_the_parameters_are_kept_to() {
     assert_eq!(brep.unit_in_metres, 0.0254);
     let s = surface(&brep);
     assert!((s.area - 8.0 * 0.0254 * 0.0254).abs() < 1e-12);
-    let bounds = crate::run::Bounds::of(&s.carrier.points);
-    let inches = |p: [f64; 3]| p.map(|x| (x / 0.0254 * 1e9).round() / 1e9);
-    assert_eq!((inches(bounds.min), inches(bounds.max)), ([6.0, 0.0, 5.0], [10.0, 2.0, 5.0]));
+    let points = || s.carrier.points.iter().copied();
+    let (lo, hi) = (points().reduce(DVec3::min).unwrap(), points().reduce(DVec3::max).unwrap());
+    assert!((lo / 0.0254).distance(DVec3::new(6.0, 0.0, 5.0)) < 1e-9, "{lo}");
+    assert!((hi / 0.0254).distance(DVec3::new(10.0, 2.0, 5.0)) < 1e-9, "{hi}");
 }
 
 #[test]

@@ -47,13 +47,13 @@ pub(super) fn pairs(brep: &Brep, pieces: &Pieces, tolerance: f64) -> Pairs {
         rivals[i as usize] += 1;
     }
     // How far from smooth each candidate is; only asked for where there is a choice.
-    let mut order: Vec<(u32, f64, Joint)> = found
+    let mut order: Vec<(u8, f64, Joint)> = found
         .into_iter()
         .map(|j| {
             let [a, b] = j.pieces.map(|i| &pieces.all[i as usize]);
             let choice = j.pieces.iter().any(|&i| rivals[i as usize] > 1);
             let fold = if choice { fold(brep, a, b) } else { 0.0 };
-            let open = if j.gap <= CLOSED * tolerance { 0 } else { 1 };
+            let open = u8::from(j.gap > CLOSED * tolerance);
             (open, fold, j)
         })
         .collect();
