@@ -1,7 +1,7 @@
-//! Curve entities as exact splines: 100, 102, 104, 106, 110, 112, 126, 130 left out.
+//! Curve entities as exact splines: 100, 102, 104, 106, 110, 112, 126.
 
 use super::directory::{Entry, Parameters};
-use super::{Fault, File, MOST_LEVELS, arc, bezier};
+use super::{Fault, File, MOST_LEVELS, VISIT, arc, bezier};
 use crate::surface::nurbs::{MAX_DEGREE, NurbsCurve};
 use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
 
@@ -89,7 +89,7 @@ impl File<'_> {
         if level > MOST_LEVELS {
             return Err(entry.fault("entities are nested too deep here; one may contain itself"));
         }
-        self.spend(entry, 1)
+        self.spend(entry, VISIT)
     }
 
     /// Where an entity is placed: its transformation and those of that one.

@@ -32,8 +32,14 @@ use std::path::Path;
 const MOST_BYTES: u64 = 256 << 20;
 /// Entities nested deeper than this contain themselves, or are nobody's work.
 const MOST_LEVELS: usize = 32;
-/// Entities visited and control points made, at most: more means that a file refers to itself in many ways.
-const MOST_WORK: usize = 20_000_000;
+/// Work that any file may ask for, and more for each of its entities and parameter records: one for a control point
+/// that is made. A file that asks for more refers to itself in many ways.
+const WORK: usize = 4_000_000;
+const WORK_OF_ENTITY: usize = 100;
+const WORK_OF_RECORD: usize = 10;
+/// Work of visiting an entity, and of placing a subfigure.
+const VISIT: usize = 10;
+const PLACING: usize = 100;
 /// More faces, counted with every placed copy, are refused.
 const MOST_FACES: usize = 100_000;
 /// Notes beyond this many are only counted.
@@ -58,7 +64,9 @@ impl Fault {
 /// A file while it is read.
 struct File<'a> {
     directory: Directory<'a>,
+    /// Work done, and how much may be.
     spent: Cell<usize>,
+    limit: usize,
     notes: RefCell<Vec<String>>,
 }
 
@@ -77,7 +85,7 @@ impl File<'_> {
     /// Count work, and refuse to do more than any sensible file asks for.
     fn spend(&self, entry: &Entry, work: usize) -> std::result::Result<(), Fault> {
         self.spent.set(self.spent.get().saturating_add(work));
-        if self.spent.get() > MOST_WORK {
+        if self.spent.get() > self.limit {
             let what = "the entities refer to each other in too many ways, or are too large";
             return Err(Fault { fatal: true, ..entry.fault(what) });
         }
@@ -106,7 +114,9 @@ fn parse(bytes: &[u8]) -> std::result::Result<Brep, Fault> {
     let records = records::read(bytes)?;
     let global = global::read(&records)?;
     let directory = Directory::new(&records, global.marks)?;
-    let file = File { directory, spent: Cell::new(0), notes: RefCell::default() };
+    let limit =
+        WORK + WORK_OF_ENTITY * directory.entries.len() + WORK_OF_RECORD * records.parameters.len();
+    let file = File { directory, spent: Cell::new(0), limit, notes: RefCell::default() };
     if global.unit_guessed {
         file.note("the file names no unit of length: taken as millimetres".into());
     }

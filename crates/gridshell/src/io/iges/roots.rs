@@ -4,7 +4,7 @@
 use super::directory::Entry;
 use super::shells::{self, Shared};
 use super::surfaces::is_surface;
-use super::{Fault, File, MOST_FACES, MOST_LEVELS, trimmed};
+use super::{Fault, File, MOST_FACES, MOST_LEVELS, PLACING, trimmed};
 use crate::surface::brep::Brep;
 use glam::{DAffine3, DVec3};
 use std::collections::BTreeSet;
@@ -83,6 +83,11 @@ impl File<'_> {
 
     /// 408: the members of a subfigure (308), placed.
     fn instance(&self, brep: &mut Brep, entry: &Entry, level: usize) -> Result<(), Fault> {
+        self.spend(entry, PLACING)?;
+        if level >= MOST_LEVELS {
+            let what = "subfigures are nested too deep here; one may contain itself";
+            return Err(Fault { fatal: true, ..entry.fault(what) });
+        }
         let p = self.directory.parameters(entry)?;
         let figure =
             self.known(p.pointer(0)?.ok_or_else(|| p.fault("its subfigure is missing"))?)?;
@@ -104,9 +109,7 @@ impl File<'_> {
                 continue;
             }
             let added = self.add(&mut part, &mut shared, &member, level + 1);
-            if level < MOST_LEVELS {
-                self.or_note(added)?;
-            }
+            self.or_note(added)?;
         }
         if brep.faces.len() + part.faces.len() > MOST_FACES {
             return Err(Fault {

@@ -3,7 +3,7 @@
 
 use super::curves::Arc;
 use super::directory::{Entry, Parameters};
-use super::{Fault, File};
+use super::{Fault, File, VISIT};
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
 use crate::surface::{Curve, Shape};
 use glam::DVec3;
@@ -44,7 +44,7 @@ impl File<'_> {
             let number = p.pointer(1 + 2 * k)?.ok_or_else(|| p.fault("a face is missing"))?;
             let reversed = p.number_or(2 + 2 * k, 1.0) == 0.0;
             let added = self.known(number).and_then(|face| {
-                self.spend(&face, 1)?;
+                self.spend(&face, VISIT)?;
                 self.shell_face(brep, shared, &face, reversed)
             });
             self.or_note(added)?;

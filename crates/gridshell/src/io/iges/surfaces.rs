@@ -2,7 +2,7 @@
 
 use super::curves::{Arc, plain, to_bezier, within};
 use super::directory::{Entry, Parameters};
-use super::{Fault, File, arc, bezier};
+use super::{Fault, File, VISIT, arc, bezier};
 use crate::math::trig;
 use crate::surface::nurbs::{MAX_DEGREE, NurbsCurve, NurbsSurface};
 use glam::{DVec2, DVec3};
@@ -40,7 +40,7 @@ impl File<'_> {
     /// `reach`.
     pub fn surface(&self, number: u32, reach: &[DVec3]) -> Result<Sheet, Fault> {
         let entry = self.known(number)?;
-        self.spend(&entry, 1)?;
+        self.spend(&entry, VISIT)?;
         let place = self.place(&entry)?;
         let back = place.inverse();
         if !back.is_finite() {
@@ -112,7 +112,7 @@ impl File<'_> {
             bezier::joined(&pieces)
         });
         let [first, second] = rows;
-        let fault = |e: crate::Error| p.fault(e.to_string());
+        let fault = |e: crate::error::Error| p.fault(e.to_string());
         let (first, second) = (first.map_err(fault)?, second.map_err(fault)?);
         let pairs = first.points.iter().zip(&second.points);
         let points = pairs.flat_map(|(a, b)| [*a, *b]).collect();
@@ -298,7 +298,7 @@ fn revolve(
             "it turns through {sweep} radians, which is not from 0 to a whole turn"
         ));
     }
-    let text = |e: crate::Error| e.to_string();
+    let text = |e: crate::error::Error| e.to_string();
     let circle = bezier::joined(&arc::unit_circle(from, sweep.min(TAU))).map_err(text)?;
     let curve = bezier::joined(&bezier::pieces(&turned.curve, turned.range)).map_err(text)?;
     let (mut points, mut weights) = (Vec::new(), Vec::new());
