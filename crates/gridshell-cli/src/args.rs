@@ -40,6 +40,10 @@ pub struct Generate {
     /// Wanted number of nodes.
     #[arg(short, long, value_name = "N")]
     pub nodes: Option<usize>,
+    /// Faces that lie within this many metres of each other along their edges are joined; without it, what the file
+    /// or the size of the model suggests.
+    #[arg(long, value_name = "TOL", value_parser = positive, allow_negative_numbers = true)]
+    pub sew: Option<f64>,
     /// Seed of every random choice.
     #[arg(short, long, value_name = "S")]
     pub seed: Option<u64>,
@@ -105,6 +109,10 @@ pub struct Measure {
     /// The surface it was laid on: a file or a built-in name. Without it the grid itself is the surface.
     #[arg(short, long, value_name = "SURFACE")]
     pub surface: Option<String>,
+    /// Faces that lie within this many metres of each other along their edges are joined; without it, what the file
+    /// or the size of the model suggests.
+    #[arg(long, value_name = "TOL", value_parser = positive, allow_negative_numbers = true)]
+    pub sew: Option<f64>,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,
@@ -114,6 +122,10 @@ pub struct Measure {
 pub struct Inspect {
     /// A file (STEP, OBJ, PLY, STL, OFF) or the name of a built-in surface.
     pub surface: String,
+    /// Faces that lie within this many metres of each other along their edges are joined; without it, what the file
+    /// or the size of the model suggests.
+    #[arg(long, value_name = "TOL", value_parser = positive, allow_negative_numbers = true)]
+    pub sew: Option<f64>,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,

@@ -5,6 +5,7 @@ use crate::args::Measure;
 use crate::failure::Failure;
 use crate::{say, table};
 use gridshell::grid::Grid;
+use gridshell::io::Opening;
 use gridshell::recipe::Recipe;
 use gridshell::run::SurfaceSummary;
 use gridshell::stages::measure::{IrregularNode, Quality, irregular_nodes, measure};
@@ -37,7 +38,8 @@ pub fn run(args: &Measure) -> Result<Outcome, Failure> {
             (grid, surface, None)
         }
         Some(name) => {
-            let model = io::open(name).map_err(Failure::of_input)?;
+            let opening = Opening { sew: args.sew };
+            let model = io::open_with(name, &opening).map_err(Failure::of_input)?;
             let surface = sample(&model, edge_length, &recipe)?;
             let grid = Grid::from_panels(mesh.points, &panels, &surface)?;
             let summary = SurfaceSummary::new(&model, &surface);

@@ -5,7 +5,7 @@
 use crate::grid::Grid;
 use crate::recipe::{self, Recipe};
 use crate::stages::measure::{Border, IrregularNode, Quality};
-use crate::surface::{Model, Surface};
+use crate::surface::{Model, Sewing, Surface};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -148,6 +148,8 @@ pub struct SurfaceSummary {
     pub gap: f64,
     /// Largest distance between the boundary's edge curves and the patches they bound.
     pub edge_gap: f64,
+    /// What sewing found; null for built-in surfaces and meshes.
+    pub sewing: Option<Sewing>,
     /// What was skipped or repaired while reading.
     pub notes: Vec<String>,
 }
@@ -177,6 +179,10 @@ impl SurfaceSummary {
             Model::Brep(brep) => (brep.unit_in_metres, largest_gap(brep), &brep.notes),
             Model::Mesh(mesh) => (1.0, 0.0, &mesh.notes),
         };
+        let sewing = match model {
+            Model::Brep(brep) => brep.sewing,
+            Model::Mesh(_) => None,
+        };
         let boundaries: Vec<_> = surface
             .loops
             .iter()
@@ -193,6 +199,7 @@ impl SurfaceSummary {
             unit_in_metres,
             gap,
             edge_gap: edge_gap(surface),
+            sewing,
             notes: notes.clone(),
         }
     }

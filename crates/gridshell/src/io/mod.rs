@@ -2,6 +2,7 @@
 
 mod file;
 mod grid_file;
+pub mod iges;
 mod lines;
 mod obj;
 mod off;
@@ -17,19 +18,35 @@ pub use lines::{read_anchors, read_guides};
 pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
-use crate::surface::{Model, PolygonMesh, builtin};
+use crate::surface::{Model, PolygonMesh, Source, builtin, sew};
 use std::path::Path;
 
 /// Extensions of the mesh formats.
 const MESH_FORMATS: &str = "obj, ply, stl, off";
 /// Extensions of all formats that hold a surface.
-const SURFACE_FORMATS: &str = "step, stp, obj, ply, stl, off";
+const SURFACE_FORMATS: &str = "step, stp, iges, igs, obj, ply, stl, off";
+
+/// How a file is to be opened.
+#[derive(Clone, Debug, Default)]
+pub struct Opening {
+    /// Edges of different faces that lie within this many metres of each other are one edge; without it, what the
+    /// file or the size of the model suggests.
+    pub sew: Option<f64>,
+}
+
+/// As [`open_with`], in the usual way.
+///
+/// # Errors
+/// As [`open_with`].
+pub fn open(name_or_path: &str) -> Result<Model> {
+    open_with(name_or_path, &Opening::default())
+}
 
 /// A built-in surface by its name, else the file at this path.
 ///
 /// # Errors
 /// [`Error::Option`] listing the built-in names when there is neither; what [`load`] says of the file.
-pub fn open(name_or_path: &str) -> Result<Model> {
+pub fn open_with(name_or_path: &str, opening: &Opening) -> Result<Model> {
     if let Some(model) = builtin::model(name_or_path) {
         return Ok(model);
     }
@@ -41,17 +58,27 @@ pub fn open(name_or_path: &str) -> Result<Model> {
             names.join(", ")
         )));
     }
-    load(path)
+    load(path, opening)
 }
 
-/// The surface in a file, by its extension.
+/// The surface in a file, by its extension. Faces that only touch are [sewn](crate::surface::sew()).
 ///
 /// # Errors
 /// [`Error::Io`], [`Error::Parse`] with line or entity, [`Error::Surface`] where the contents are no
-/// manifold surface, [`Error::Option`] listing the known extensions for an unknown one.
-pub fn load(path: &Path) -> Result<Model> {
+/// manifold surface, [`Error::Option`] listing the known extensions for an unknown one, or where the sewing
+/// tolerance is too large for the model.
+pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
+    let mut model = read(path)?;
+    if let Model::Brep(brep) = &mut model {
+        sew(brep, opening.sew)?;
+    }
+    Ok(model)
+}
+
+fn read(path: &Path) -> Result<Model> {
     match extension(path).as_str() {
         "step" | "stp" => step::read(path).map(Model::Brep),
+        "iges" | "igs" => iges::read(path).map(Model::Brep),
         "obj" | "ply" | "stl" | "off" => read_mesh(path).map(Model::Mesh),
         _ => Err(unknown(path, SURFACE_FORMATS)),
     }
@@ -62,13 +89,18 @@ pub fn load(path: &Path) -> Result<Model> {
 /// # Errors
 /// As [`load`].
 pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
-    match extension(path).as_str() {
+    let mut mesh = match extension(path).as_str() {
         "obj" => obj::read(path),
         "ply" => ply::read(path),
         "stl" => stl::read(path),
         "off" => off::read(path),
         _ => Err(unknown(path, MESH_FORMATS)),
+    }?;
+    // Most of these formats say nothing more of themselves.
+    if mesh.source.format.is_empty() {
+        mesh.source.format = Source::of_format(&extension(path).to_uppercase()).format;
     }
+    Ok(mesh)
 }
 
 /// Write a grid in the format of the path's extension. The file appears whole or not at all.

@@ -6,14 +6,14 @@
 use crate::error::{Error, Result};
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::{NurbsCurve, NurbsSurface};
-use crate::surface::{Curve, Shape};
+use crate::surface::{Curve, Shape, Source, Unit};
 use glam::{DMat4, DVec3};
 use std::collections::{HashMap, HashSet};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use step_io::scene::{Edge, Face, ProductDef, Vertex};
-use step_io::{EntityKey, Orientation};
+use step_io::{EntityKey, Orientation, StepModel};
 
 /// Larger files are refused, bytes.
 const MOST_BYTES: u64 = 512 << 20;
@@ -65,6 +65,9 @@ fn parse(text: impl Read) -> std::result::Result<Brep, (String, String)> {
                 .push("the file names no unit of length: taken as millimetres".into());
         }
     }
+    let precision = scene.units().precision.filter(|p| p.is_finite() && *p > 0.0);
+    reading.brep.tolerance = precision.unwrap_or(0.0) * reading.brep.unit_in_metres;
+    reading.brep.source = source(&model);
     let metres = DMat4::from_scale(DVec3::splat(reading.brep.unit_in_metres));
     for root in scene.root_definitions() {
         reading.definition(&root, metres, 0)?;
@@ -88,6 +91,18 @@ fn parse(text: impl Read) -> std::result::Result<Brep, (String, String)> {
         return Err(("data section".into(), format!("no face that can be used{why}")));
     }
     Ok(brep)
+}
+
+/// What the header says, and the unit.
+fn source(model: &StepModel) -> Source {
+    let header = model.header();
+    let told = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let system = told(&header.originating_system);
+    let processor = told(&header.preprocessor_version);
+    let application = if system.is_empty() { processor } else { system };
+    let unit = model.scene().units().length.map(|unit| unit.to_si);
+    let unit = unit.filter(|m| m.is_finite() && *m > 0.0).map(Unit::of_metres);
+    Source { version: header.schema.to_string(), application, unit, ..Source::of_format("STEP") }
 }
 
 /// Add the first notes of a kind and the number of the rest.
@@ -337,6 +352,8 @@ ENDSEC;END-ISO-10303-21;
             let brep = parse(plate(name, "PLANE('',#93)").as_bytes()).unwrap();
             assert_eq!((brep.faces.len(), brep.edges.len(), brep.vertices.len()), (1, 5, 5));
             assert_eq!(brep.unit_in_metres, unit);
+            assert_eq!(brep.source.version, "AP214");
+            assert_eq!(brep.source.unit.as_ref().unwrap().metres, unit);
             let sampling =
                 Sampling { max_edge: 0.3 * unit, chord_error: 0.002 * unit, corner_angle: 0.5 };
             let surface = tessellate(&brep, &sampling).unwrap();

@@ -1,7 +1,9 @@
 //! The trimmed model as CAD files have it: faces over exact shapes, bounded by shared edges.
 
 use super::curve::Curve;
+use super::sew::Sewing;
 use super::shape::Shape;
+use super::source::Source;
 use glam::DVec3;
 
 /// A boundary representation in metres: what the CAD readers and the built-in surfaces make, and what
@@ -12,12 +14,21 @@ pub struct Brep {
     pub name: String,
     /// Length of the file's unit in metres (0.001 for millimetres).
     pub unit_in_metres: f64,
+    /// How far apart the file says that edges which belong together may lie, metres; 0 where it says nothing.
+    pub tolerance: f64,
+    /// What sewing did; None before.
+    pub sewing: Option<Sewing>,
     /// Vertex positions.
     pub vertices: Vec<DVec3>,
     /// Edges, each once, however many faces share it.
     pub edges: Vec<BrepEdge>,
     /// Trimmed faces.
     pub faces: Vec<BrepFace>,
+    /// What the file says of itself.
+    pub source: Source,
+    /// For each face the place of its object in `source.objects`; empty where no objects are known. What drops
+    /// or adds faces keeps it in step.
+    pub object_of: Vec<u32>,
     /// What was skipped or repaired while reading, for the user.
     pub notes: Vec<String>,
 }

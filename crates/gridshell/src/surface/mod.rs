@@ -34,8 +34,10 @@ pub mod ruler;
 mod sample;
 mod seam;
 pub mod section;
+pub mod sew;
 pub mod shape;
 mod size;
+pub mod source;
 mod stretch;
 pub mod tessellate;
 mod track;
@@ -52,8 +54,12 @@ pub use locate::Locator;
 pub use model::{Model, PolygonMesh, Sampling};
 pub use motion::Motion;
 pub use ruler::Ruler;
+pub use sew::{Sewing, sew};
 pub use shape::Shape;
+pub use source::{Object, Source, Unit};
 pub use tessellate::tessellate;
+
+pub(crate) use seam::bound;
 
 use glam::DVec3;
 use track::Tracks;

@@ -1,6 +1,6 @@
 //! What a file or a built-in name gives, before it is sampled for an edge length.
 
-use super::{Brep, Surface, tessellate};
+use super::{Brep, Source, Surface, tessellate};
 use crate::error::Result;
 use glam::DVec3;
 
@@ -22,6 +22,8 @@ pub struct PolygonMesh {
     pub points: Vec<DVec3>,
     /// Faces of three or more vertices, counter-clockwise seen from outside.
     pub faces: Vec<Vec<u32>>,
+    /// What the file says of itself.
+    pub source: Source,
     /// What was skipped or repaired while reading, for the user.
     pub notes: Vec<String>,
 }
@@ -38,6 +40,22 @@ pub struct Sampling {
 }
 
 impl Model {
+    /// What the file says of itself.
+    pub fn source(&self) -> &Source {
+        match self {
+            Model::Brep(brep) => &brep.source,
+            Model::Mesh(mesh) => &mesh.source,
+        }
+    }
+
+    /// What was skipped or repaired while reading.
+    pub fn notes(&self) -> &[String] {
+        match self {
+            Model::Brep(brep) => &brep.notes,
+            Model::Mesh(mesh) => &mesh.notes,
+        }
+    }
+
     /// The surface with a carrier of this sampling.
     ///
     /// # Errors

@@ -176,7 +176,7 @@ mod tests {
             name: "sheet".into(),
             points: points.iter().map(|&p| p.into()).collect(),
             faces: faces.iter().map(|f| f.to_vec()).collect(),
-            notes: Vec::new(),
+            ..PolygonMesh::default()
         }
     }
 

@@ -22,6 +22,7 @@ use std::sync::Arc;
 /// [`Error::Surface`] naming the face that has neither loops nor an end.
 pub(super) fn complete(brep: &Brep, sampling: &Sampling) -> Result<Brep> {
     let mut brep = brep.clone();
+    // Most faces without loops have been bounded by sewing.
     for i in 0..brep.faces.len() {
         if brep.faces[i].loops.is_empty() {
             bound(&mut brep, i)?;
@@ -47,12 +48,24 @@ pub(super) fn complete(brep: &Brep, sampling: &Sampling) -> Result<Brep> {
     Ok(brep)
 }
 
+/// Bound every face that has no loops and can be bounded; the others are refused later, by name.
+pub(super) fn bound_all(brep: &mut Brep) {
+    for i in 0..brep.faces.len() {
+        if brep.faces[i].loops.is_empty() {
+            let _ = bound(brep, i);
+        }
+    }
+}
+
 fn fault(face: usize, what: &str) -> Error {
     Error::Surface(format!("face {}: {what}", face + 1))
 }
 
-/// Bound face `i`, which has no loops, by the sides of its patch.
-fn bound(brep: &mut Brep, i: usize) -> Result<()> {
+/// Bound face `i`, whose loops are at most holes, by the sides of its patch.
+///
+/// # Errors
+/// [`Error::Surface`] where the patch has no end, or no side that is a curve.
+pub(crate) fn bound(brep: &mut Brep, i: usize) -> Result<()> {
     let shape = Arc::new(brep.faces[i].shape.clone());
     let [[u0, u1], [v0, v1]] = shape.domain();
     if ![u0, u1, v0, v1].iter().all(|t| t.is_finite()) {

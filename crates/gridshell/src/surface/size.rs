@@ -11,10 +11,15 @@ impl Model {
     /// faces without edges.
     pub fn size(&self) -> f64 {
         match self {
-            Model::Brep(brep) => diagonal(brep_points(brep)),
+            Model::Brep(brep) => of_brep(brep),
             Model::Mesh(mesh) => diagonal(mesh.points.iter().copied()),
         }
     }
+}
+
+/// The same of a `Brep`.
+pub(super) fn of_brep(brep: &Brep) -> f64 {
+    diagonal(brep_points(brep))
 }
 
 fn brep_points(brep: &Brep) -> impl Iterator<Item = DVec3> + '_ {

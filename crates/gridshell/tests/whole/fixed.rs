@@ -147,7 +147,12 @@ fn gable() -> Vec<DVec3> {
 
 fn gable_mesh() -> Model {
     let faces = vec![vec![0, 1, 5, 4], vec![4, 5, 2, 3]];
-    Model::Mesh(PolygonMesh { name: "gable".into(), points: gable(), faces, notes: Vec::new() })
+    Model::Mesh(PolygonMesh {
+        name: "gable".into(),
+        points: gable(),
+        faces,
+        ..PolygonMesh::default()
+    })
 }
 
 /// The same with two ruled patches that share the ridge.
@@ -176,7 +181,7 @@ fn gable_patches() -> Model {
         edges: ends.iter().map(|&(a, b)| straight(a, b)).collect(),
         faces: vec![south, north],
         vertices,
-        notes: Vec::new(),
+        ..Brep::default()
     })
 }
 
@@ -210,7 +215,8 @@ fn a_closed_crease_is_followed_all_round() {
     let faces = wall.chain(lid).collect();
     let mut crease: Vec<DVec3> = ring(3.0).collect();
     crease.push(crease[0]);
-    let drum = Model::Mesh(PolygonMesh { name: "drum".into(), points, faces, notes: Vec::new() });
+    let drum =
+        Model::Mesh(PolygonMesh { name: "drum".into(), points, faces, ..PolygonMesh::default() });
     for recipe in recipes(1.2) {
         let run = pipeline::generate(&drum, &recipe, &Job::default()).unwrap();
         assert_followed(&run, &crease);

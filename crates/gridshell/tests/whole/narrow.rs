@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 fn sheet(name: &str, xy: &[[f64; 2]], faces: Vec<Vec<u32>>) -> Model {
     let points = xy.iter().map(|&[x, y]| DVec3::new(x, y, 0.0)).collect();
-    Model::Mesh(PolygonMesh { name: name.into(), points, faces, notes: Vec::new() })
+    Model::Mesh(PolygonMesh { name: name.into(), points, faces, ..PolygonMesh::default() })
 }
 
 /// Two squares of side 6 joined by a neck of length 2, half a metre wide, about the origin.

@@ -38,7 +38,7 @@ fn fold() -> Model {
         vec![a, a + 1, a + 1 + n, a + n]
     };
     let faces = (0..rows as u32).flat_map(|r| (0..n - 1).map(move |k| quad(r, k))).collect();
-    Model::Mesh(PolygonMesh { name: "fold".into(), points, faces, notes: Vec::new() })
+    Model::Mesh(PolygonMesh { name: "fold".into(), points, faces, ..PolygonMesh::default() })
 }
 
 /// Arc length along the profile, metres from the end of the lower sheet.
