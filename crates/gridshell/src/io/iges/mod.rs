@@ -106,7 +106,7 @@ pub fn read(path: &Path) -> Result<Brep> {
         return Err(fault(Fault::new("file", format!("larger than {} MB", MOST_BYTES >> 20))));
     }
     let mut brep = parse(&fs::read(path).map_err(io)?).map_err(fault)?;
-    brep.name = path.file_stem().and_then(|s| s.to_str()).unwrap_or("surface").to_owned();
+    path.file_stem().and_then(|s| s.to_str()).unwrap_or("surface").clone_into(&mut brep.name);
     Ok(brep)
 }
 

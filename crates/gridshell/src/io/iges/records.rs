@@ -87,7 +87,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Records, Fault> {
             "the file ends before its directory",
         ));
     }
-    if records.directory.len() % 2 != 0 {
+    if !records.directory.len().is_multiple_of(2) {
         let line = records.directory[records.directory.len() - 1].1;
         return Err(Fault::new(&format!("line {line}"), "the directory ends within an entry"));
     }

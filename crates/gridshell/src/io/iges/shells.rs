@@ -8,6 +8,7 @@ use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
 use crate::surface::{Curve, Shape};
 use glam::DVec3;
 use std::collections::HashMap;
+use std::collections::hash_map::Entry as Known;
 
 /// A curve's end within this share of its length of a vertex is there.
 const AT_VERTEX: f64 = 1e-6;
@@ -146,11 +147,10 @@ impl File<'_> {
                 entry.fault(format!("a list of type {kind} is asked for here, which this is not"))
             );
         }
-        if !shared.lists.contains_key(&number) {
-            let p = self.directory.parameters(&entry)?;
-            shared.lists.insert(number, p);
-        }
-        Ok(&shared.lists[&number])
+        Ok(match shared.lists.entry(number) {
+            Known::Occupied(list) => list.into_mut(),
+            Known::Vacant(list) => list.insert(self.directory.parameters(&entry)?),
+        })
     }
 
     /// Edge `place`, from 1, of a 504.

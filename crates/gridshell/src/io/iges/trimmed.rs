@@ -233,8 +233,7 @@ fn placed_curve(curve: Curve, place: &DAffine3) -> Curve {
 pub(super) fn parts(kind: u32, p: &Parameters) -> Vec<usize> {
     match kind {
         144 => vec![0],
-        143 => vec![1],
-        142 => vec![1],
+        142 | 143 => vec![1],
         141 => vec![2],
         _ => Vec::new(),
     }
