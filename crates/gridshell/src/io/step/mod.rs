@@ -8,6 +8,7 @@ mod reading;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod trimmed;
 
 use crate::error::{Error, Result};
 use crate::surface::{Brep, Source, Unit};
@@ -45,8 +46,12 @@ fn fault(path: &Path, place: &str, what: &str) -> Error {
 }
 
 /// Read the faces from the text of a STEP file; place and sentence on failure.
-fn parse(text: impl Read) -> std::result::Result<Brep, (String, String)> {
-    let (model, report) = step_io::read(text).map_err(|e| ("file".to_owned(), e.to_string()))?;
+fn parse(mut text: impl Read) -> std::result::Result<Brep, (String, String)> {
+    let mut bytes = Vec::new();
+    text.read_to_end(&mut bytes).map_err(|e| ("file".to_owned(), e.to_string()))?;
+    let bytes = trimmed::without(bytes);
+    let (model, report) =
+        step_io::read(bytes.as_slice()).map_err(|e| ("file".to_owned(), e.to_string()))?;
     let scene = model.scene();
     let unit = scene.units().length.map(|u| u.to_si).filter(|m| m.is_finite() && *m > 0.0);
     let mut reading = Reading::new(&model, unit.unwrap_or(0.001));

@@ -15,6 +15,8 @@ const MOST_FACES: usize = 100_000;
 const MOST_LEVELS: usize = 32;
 /// A closed edge begins at its vertex when nearer to it than this share of its curve's size.
 const AT_VERTEX: f64 = 1e-7;
+/// Two vertices at the ends of a closed curve are one place when nearer than this share of its size.
+const SAME_PLACE: f64 = 1e-6;
 /// Farther from the origin than this, in metres, lengths of a micrometre are lost in rounding.
 pub(super) const MOST_METRES: f64 = 1e9;
 /// Edges that follow each other in a loop may be this share of the loop's size apart.
@@ -265,6 +267,10 @@ impl<'m> Reading<'m> {
         }
         let curve = NurbsCurve::new(curve.degree, curve.knots, points, plain(curve.weights))
             .map_err(|e| format!("an edge: {e}"))?;
+        // Two vertices at one place part a closed curve as one does.
+        let apart = at.distance(self.brep.vertices[ends[1] as usize]);
+        let size = curve.points.iter().fold(0.0_f64, |s, p| s.max(p.distance(at)));
+        let closed = closed || curve.closed() && apart <= SAME_PLACE * size;
         // The parser hands on whole closed curves as they stand, whichever way the edge runs.
         let curve = if closed && !edge.same_sense() { backwards(&curve) } else { curve };
         let range = if closed { range_from(&curve, at) } else { curve.domain() };
