@@ -9,6 +9,7 @@ mod check;
 mod laid;
 mod picture;
 mod quality;
+mod watched;
 
 use quality::Scope;
 use std::process::ExitCode;
@@ -17,7 +18,8 @@ const USAGE: &str = "\
 usage: cargo xtask CHORE
   lint                    format, clippy and rustdoc, warnings denied
   test                    lint, then every test, the documentation's included
-  cases FOLDER [NAME]...  a grid on every case in FOLDER's README.md table (or the named ones), as a table
+  cases FOLDER [NAME]...  a grid on every case in FOLDER's README.md table (or the named ones), as a table,
+                          and what becomes of its broken files
   bench quality [--cases FOLDER] [--quick] [NAME]...
                           the figures of all grids against their bars, into docs/quality.md unless only
                           some are named; --cases: on STEP files, --quick: one seed

@@ -225,15 +225,15 @@ impl NurbsSurface {
 }
 
 /// The basis functions that are not zero at one parameter, and their derivatives.
-struct Basis {
+pub(super) struct Basis {
     /// Index of the first control point that counts.
-    first: usize,
-    value: [f64; MAX_DEGREE + 1],
-    slope: [f64; MAX_DEGREE + 1],
+    pub first: usize,
+    pub value: [f64; MAX_DEGREE + 1],
+    pub slope: [f64; MAX_DEGREE + 1],
 }
 
 impl Basis {
-    fn at(knots: &[f64], degree: usize, count: usize, closed: bool, t: f64) -> Basis {
+    pub fn at(knots: &[f64], degree: usize, count: usize, closed: bool, t: f64) -> Basis {
         let t = into_domain(knots[degree], knots[count], closed, t);
         // The last span that begins at or before t; at the very end the last one that has a length.
         let after = knots[degree..=count].partition_point(|&k| k <= t);

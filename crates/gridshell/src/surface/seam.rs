@@ -39,11 +39,22 @@ pub(super) fn complete(brep: &Brep, sampling: &Sampling) -> Result<Brep> {
     for i in closed {
         let shape = brep.faces[i].shape.clone();
         let tracer = Tracer::new(&shape, &edges, sampling);
+        let traced = |reversed: bool, brep: &Brep| -> std::result::Result<Vec<Traced>, String> {
+            brep.faces[i].loops.iter().map(|l| tracer.trace(l, reversed)).collect()
+        };
         let reversed = brep.faces[i].reversed;
-        let traced: std::result::Result<Vec<Traced>, String> =
-            brep.faces[i].loops.iter().map(|l| tracer.trace(l, reversed)).collect();
-        let traced = traced.map_err(|what| fault(i, &what))?;
-        cut(&mut brep, i, &traced, tracer.poles()).map_err(|what| fault(i, &what))?;
+        let all = traced(reversed, &brep).map_err(|what| fault(i, &what))?;
+        if only_holes(&shape, &all, tracer.poles()) {
+            let from = clear_of(&shape, &all).map_err(|what| fault(i, &what))?;
+            bound_from(&mut brep, i, from)?;
+            continue;
+        }
+        let Err(what) = cut(&mut brep, i, &all, tracer.poles()) else { continue };
+        // What bounds nothing to its left may do so to its right: the file has the face the wrong way round.
+        brep.faces[i].reversed = !reversed;
+        traced(!reversed, &brep)
+            .and_then(|all| cut(&mut brep, i, &all, tracer.poles()))
+            .map_err(|_| fault(i, &what))?;
     }
     Ok(brep)
 }
@@ -61,13 +72,62 @@ fn fault(face: usize, what: &str) -> Error {
     Error::Surface(format!("face {}: {what}", face + 1))
 }
 
+/// Whether the loops are holes in a patch that has no sides but seams and poles, such as a sphere.
+fn only_holes(shape: &Shape, traced: &[Traced], poles: &[Pole]) -> bool {
+    let closed = shape.closed();
+    let sides = |k: usize| poles.iter().filter(|p| p.fixed == k).count();
+    let endless = (0..2).all(|k| closed[k] || sides(k) == 2);
+    let largest = traced.iter().map(Traced::area).max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    endless
+        && traced.iter().all(|t| t.winding == DVec2::ZERO)
+        && largest.is_some_and(|area| area < 0.0)
+}
+
+/// Parameters through which seams meet no loop.
+fn clear_of(shape: &Shape, traced: &[Traced]) -> std::result::Result<DVec2, String> {
+    const TRIED: usize = 256;
+    let (domain, period) = (shape.domain(), shape.period());
+    let mut from = DVec2::new(domain[0][0], domain[1][0]);
+    for k in (0..2).filter(|&k| period[k] > 0.0) {
+        let spans: Vec<[f64; 2]> = traced
+            .iter()
+            .map(|t| {
+                let all = || t.nodes.iter().map(|n| n.uv[k]);
+                [all().fold(f64::MAX, f64::min), all().fold(f64::MIN, f64::max)]
+            })
+            .collect();
+        // Distance to the nearest loop, negative within one.
+        let room = |place: f64| {
+            let to = |[lo, hi]: &[f64; 2]| {
+                let turns = ((0.5 * (lo + hi) - place) / period[k]).round();
+                let place = place + turns * period[k];
+                (lo - place).max(place - hi)
+            };
+            spans.iter().map(to).fold(f64::MAX, f64::min)
+        };
+        let place = |i: usize| domain[k][0] + period[k] * i as f64 / TRIED as f64;
+        let best = (0..TRIED).map(place).max_by(|&a, &b| room(a).total_cmp(&room(b)));
+        from[k] = best.filter(|&place| room(place) > 0.0).ok_or(
+            "its holes leave no room for a seam: split the closed surface in two before exporting",
+        )?;
+    }
+    Ok(from)
+}
+
 /// Bound face `i`, whose loops are at most holes, by the sides of its patch.
 ///
 /// # Errors
 /// [`Error::Surface`] where the patch has no end, or no side that is a curve.
 pub(crate) fn bound(brep: &mut Brep, i: usize) -> Result<()> {
+    let [[u, _], [v, _]] = brep.faces[i].shape.domain();
+    bound_from(brep, i, DVec2::new(u, v))
+}
+
+/// Bound face `i` by the sides of its patch; where it closes, its seam lies at the parameter `from`.
+fn bound_from(brep: &mut Brep, i: usize, from: DVec2) -> Result<()> {
     let shape = Arc::new(brep.faces[i].shape.clone());
     let [[u0, u1], [v0, v1]] = shape.domain();
+    let (u0, u1, v0, v1) = (from.x, from.x + (u1 - u0), from.y, from.y + (v1 - v0));
     if ![u0, u1, v0, v1].iter().all(|t| t.is_finite()) {
         return Err(fault(i, "it has no boundary and its surface no end"));
     }

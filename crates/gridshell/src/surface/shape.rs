@@ -1,6 +1,7 @@
 //! Exact patch geometry: a mapping from (u, v) to xyz with first derivatives.
 
 use super::nurbs::{NurbsSurface, into_domain};
+use super::offset::OffsetSurface;
 use glam::{DVec2, DVec3};
 
 /// A side whose points lie within this share of the patch's size is one point: a pole.
@@ -25,6 +26,8 @@ pub struct Jet {
 pub enum Shape {
     /// A (rational) B-spline surface.
     Nurbs(NurbsSurface),
+    /// A surface at a constant distance from another.
+    Offset(Box<OffsetSurface>),
     /// z as an analytic function of x = u and y = v: its value and its two derivatives.
     Height(fn(f64, f64) -> [f64; 3]),
 }
@@ -62,6 +65,7 @@ impl Shape {
     pub fn jet(&self, uv: DVec2) -> Jet {
         match self {
             Shape::Nurbs(s) => s.jet(uv),
+            Shape::Offset(s) => s.jet(uv),
             Shape::Height(f) => {
                 let [z, zx, zy] = f(uv.x, uv.y);
                 Jet {
@@ -77,6 +81,7 @@ impl Shape {
     pub fn domain(&self) -> [[f64; 2]; 2] {
         match self {
             Shape::Nurbs(s) => s.domain(),
+            Shape::Offset(s) => s.basis().domain(),
             Shape::Height(_) => [[f64::NEG_INFINITY, f64::INFINITY]; 2],
         }
     }
@@ -85,6 +90,7 @@ impl Shape {
     pub fn closed(&self) -> [bool; 2] {
         match self {
             Shape::Nurbs(s) => s.closed(),
+            Shape::Offset(s) => s.closed(),
             Shape::Height(_) => [false; 2],
         }
     }
@@ -105,9 +111,18 @@ impl Shape {
         DVec2::new(clamp(0, uv.x), clamp(1, uv.y))
     }
 
+    /// The spline patch that it is, or is an offset of.
+    pub fn spline(&self) -> Option<&NurbsSurface> {
+        match self {
+            Shape::Nurbs(s) => Some(s),
+            Shape::Offset(s) => Some(s.basis()),
+            Shape::Height(_) => None,
+        }
+    }
+
     /// The sides that are a single point.
     pub fn poles(&self) -> Vec<Pole> {
-        let Shape::Nurbs(s) = self else { return Vec::new() };
+        let Some(s) = self.spline() else { return Vec::new() };
         let domain = s.domain();
         let size = {
             let lo = s.points.iter().fold(DVec3::MAX, |a, &b| a.min(b));
@@ -134,7 +149,7 @@ impl Shape {
 
     /// Parameters of direction `k` that tell the patch's shape: several in each knot span.
     pub fn lattice(&self, k: usize) -> Vec<f64> {
-        let Shape::Nurbs(s) = self else { return Vec::new() };
+        let Some(s) = self.spline() else { return Vec::new() };
         let breaks = s.breaks(k);
         // A plane needs few; a patch of many spans is well told by a few in each.
         let each = (32 / (breaks.len() - 1)).clamp(2, 8);

@@ -1,6 +1,6 @@
 //! The size of a model before it is sampled: the yardstick for tolerances and first samplings.
 
-use super::{Brep, Model, Shape};
+use super::{Brep, Model};
 use glam::DVec3;
 
 /// Points looked at on each edge.
@@ -26,9 +26,9 @@ fn brep_points(brep: &Brep) -> impl Iterator<Item = DVec3> + '_ {
     let along =
         |[a, b]: [f64; 2]| (0..LOOKS).map(move |k| a + (b - a) * k as f64 / (LOOKS - 1) as f64);
     let edges = brep.edges.iter().flat_map(move |e| along(e.range).map(|t| e.curve.point(t)));
-    let whole = brep.faces.iter().filter(|f| f.loops.is_empty()).flat_map(|f| match &f.shape {
-        Shape::Nurbs(s) => s.points.as_slice(),
-        Shape::Height(_) => &[],
+    let whole = brep.faces.iter().filter(|f| f.loops.is_empty()).flat_map(|f| {
+        let spline = f.shape.spline();
+        spline.map_or([].as_slice(), |s| s.points.as_slice())
     });
     brep.vertices.iter().copied().chain(edges).chain(whole.copied())
 }

@@ -71,6 +71,15 @@ pub(super) struct Traced {
     sliver: f64,
 }
 
+impl Traced {
+    /// Area in (u, v), positive where it runs counter-clockwise.
+    pub fn area(&self) -> f64 {
+        let n = self.nodes.len();
+        let cross = |i: usize| self.nodes[i].uv.perp_dot(self.nodes[(i + 1) % n].uv);
+        0.5 * (0..n).map(cross).sum::<f64>()
+    }
+}
+
 /// What loops of one face are traced against.
 pub(super) struct Tracer<'a> {
     shape: &'a Shape,

@@ -26,6 +26,12 @@ impl Arc {
         self.curve.point(self.range[1])
     }
 
+    /// Whether it ends where it begins.
+    fn is_closed(&self) -> bool {
+        let middle = self.curve.point(0.5 * (self.range[0] + self.range[1]));
+        self.start().distance(self.end()) < 1e-9 * self.start().distance(middle)
+    }
+
     /// Run the other way.
     pub fn reversed(&self) -> Arc {
         let mut back = self.curve.clone();
@@ -230,16 +236,17 @@ pub(super) fn within(domain: [f64; 2], asked: [f64; 2]) -> [f64; 2] {
     if a < b { [a, b] } else { domain }
 }
 
-/// Pieces of a path turned to run one after the other.
+/// Pieces of a path turned to run one after the other. Closed ones run as the file has them: which of their ends is
+/// nearer is rounding.
 pub(super) fn in_line(mut arcs: Vec<Arc>) -> Vec<Arc> {
     for k in 1..arcs.len() {
         let next = [arcs[k].start(), arcs[k].end()];
         let off = |p: DVec3| p.distance(next[0]).min(p.distance(next[1]));
-        if k == 1 && off(arcs[0].start()) < off(arcs[0].end()) {
+        if k == 1 && !arcs[0].is_closed() && off(arcs[0].start()) < off(arcs[0].end()) {
             arcs[0] = arcs[0].reversed();
         }
         let end = arcs[k - 1].end();
-        if end.distance(next[1]) < end.distance(next[0]) {
+        if !arcs[k].is_closed() && end.distance(next[1]) < end.distance(next[0]) {
             arcs[k] = arcs[k].reversed();
         }
     }

@@ -1,0 +1,99 @@
+//! STEP files (ISO 10303-21; AP203, AP214, AP242): trimmed faces with shared edges.
+//!
+//! The parser is `step-io`; nothing of it leaves this folder. Analytic surfaces and curves come as exact
+//! rational B-splines, offsets as exact offsets of them. Assemblies are placed, by occurrences and by mapped
+//! items. What cannot be read is left out and noted.
+
+mod reading;
+mod shape;
+#[cfg(test)]
+mod tests;
+mod trimmed;
+
+use crate::error::{Error, Result};
+use crate::surface::{Brep, Source, Unit};
+use reading::Reading;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+use step_io::StepModel;
+
+/// Larger files are refused, bytes.
+const MOST_BYTES: u64 = 512 << 20;
+/// Notes of one kind beyond this many are only counted.
+const MOST_NOTES: usize = 20;
+
+/// Read the faces of a STEP file.
+///
+/// # Errors
+/// [`Error::Io`] where the file cannot be opened, [`Error::Parse`] where it is no STEP file, too large, or
+/// holds no face that can be used.
+pub fn read(path: &Path) -> Result<Brep> {
+    let io = |source| Error::Io { path: path.to_path_buf(), source };
+    let file = File::open(path).map_err(io)?;
+    if file.metadata().map_err(io)?.len() > MOST_BYTES {
+        return Err(fault(path, "file", &format!("larger than {} MB", MOST_BYTES >> 20)));
+    }
+    let name = path.file_stem().and_then(|s| s.to_str()).unwrap_or("surface").to_owned();
+    let mut brep =
+        parse(file.take(MOST_BYTES)).map_err(|(place, what)| fault(path, &place, &what))?;
+    brep.name = name;
+    Ok(brep)
+}
+
+fn fault(path: &Path, place: &str, what: &str) -> Error {
+    Error::Parse { path: path.to_path_buf(), place: place.into(), message: what.into() }
+}
+
+/// Read the faces from the text of a STEP file; place and sentence on failure.
+fn parse(mut text: impl Read) -> std::result::Result<Brep, (String, String)> {
+    let mut bytes = Vec::new();
+    text.read_to_end(&mut bytes).map_err(|e| ("file".to_owned(), e.to_string()))?;
+    let bytes = trimmed::without(bytes);
+    let (model, report) =
+        step_io::read(bytes.as_slice()).map_err(|e| ("file".to_owned(), e.to_string()))?;
+    let scene = model.scene();
+    let unit = scene.units().length.map(|u| u.to_si).filter(|m| m.is_finite() && *m > 0.0);
+    let mut reading = Reading::new(&model, unit.unwrap_or(0.001));
+    reading.brep.source = source(&model);
+    let precision = scene.units().precision.filter(|p| p.is_finite() && *p > 0.0);
+    reading.brep.tolerance = precision.unwrap_or(0.0) * reading.brep.unit_in_metres;
+    if unit.is_none() {
+        reading.note("the file names no unit of length: taken as millimetres".into());
+    }
+    reading.everything(&scene)?;
+    let mut brep = reading.brep;
+    note_some(
+        &mut brep.notes,
+        report.dropped.iter().map(|(id, why)| format!("#{id} left out: {why}")),
+    );
+    note_some(&mut brep.notes, report.parse_warnings.iter().map(ToString::to_string));
+    note_some(&mut brep.notes, scene.warnings().iter().map(ToString::to_string));
+    if brep.faces.is_empty() {
+        let why = brep.notes.iter().take(3).cloned().collect::<Vec<_>>().join("; ");
+        let why = if why.is_empty() { why } else { format!(" ({why})") };
+        return Err(("data section".into(), format!("no face that can be used{why}")));
+    }
+    Ok(brep)
+}
+
+/// What the header says, and the unit.
+fn source(model: &StepModel) -> Source {
+    let header = model.header();
+    let told = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let system = told(&header.originating_system);
+    let processor = told(&header.preprocessor_version);
+    let application = if system.is_empty() { processor } else { system };
+    let unit = model.scene().units().length.map(|unit| unit.to_si);
+    let unit = unit.filter(|m| m.is_finite() && *m > 0.0).map(Unit::of_metres);
+    Source { version: header.schema.to_string(), application, unit, ..Source::of_format("STEP") }
+}
+
+/// Add the first notes of a kind and the number of the rest.
+fn note_some(notes: &mut Vec<String>, more: impl Iterator<Item = String>) {
+    let more: Vec<String> = more.collect();
+    notes.extend(more.iter().take(MOST_NOTES).cloned());
+    if more.len() > MOST_NOTES {
+        notes.push(format!("and {} more like the last", more.len() - MOST_NOTES));
+    }
+}

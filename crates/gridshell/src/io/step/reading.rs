@@ -1,0 +1,349 @@
+//! A STEP file's products, faces, edges and vertices brought together, each placed copy by itself.
+
+use super::shape;
+use crate::surface::Curve;
+use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
+use crate::surface::nurbs::NurbsCurve;
+use glam::{DMat4, DVec3};
+use std::collections::{HashMap, HashSet};
+use step_io::scene::{Bound, Edge, Face, MappedInstance, ProductDef, Scene, Transform, Vertex};
+use step_io::{EntityKey, Orientation, StepModel};
+
+/// More faces, counted with every placed copy, are refused.
+const MOST_FACES: usize = 100_000;
+/// Assemblies nested deeper than this are cut off (some files contain themselves).
+const MOST_LEVELS: usize = 32;
+/// A closed edge begins at its vertex when nearer to it than this share of its curve's size.
+const AT_VERTEX: f64 = 1e-7;
+/// Two vertices at the ends of a closed curve are one place when nearer than this share of its size.
+const SAME_PLACE: f64 = 1e-6;
+/// Farther from the origin than this, in metres, lengths of a micrometre are lost in rounding.
+pub(super) const MOST_METRES: f64 = 1e9;
+/// Edges that follow each other in a loop may be this share of the loop's size apart.
+const LOOP_GAP: f64 = 1e-2;
+
+/// Where and what, of what ends the reading.
+pub(super) type Fatal = (String, String);
+
+/// A file while it is read.
+pub(super) struct Reading<'m> {
+    pub brep: Brep,
+    model: &'m StepModel,
+    /// Faces that some product placed.
+    seen: HashSet<EntityKey>,
+    /// Edges and vertices of each placed copy; None for an edge that is only a point.
+    edges: HashMap<(usize, EntityKey), Option<u32>>,
+    vertices: HashMap<(usize, EntityKey), u32>,
+    /// Placed copies so far; 0 is for faces outside any product.
+    copies: usize,
+}
+
+impl<'m> Reading<'m> {
+    pub fn new(model: &'m StepModel, unit_in_metres: f64) -> Reading<'m> {
+        Reading {
+            brep: Brep { unit_in_metres, ..Brep::default() },
+            model,
+            seen: HashSet::new(),
+            edges: HashMap::new(),
+            vertices: HashMap::new(),
+            copies: 0,
+        }
+    }
+
+    pub fn note(&mut self, note: String) {
+        self.brep.notes.push(note);
+    }
+
+    /// All faces: of products where they are placed, of mapped items, and those outside any of them.
+    pub fn everything(&mut self, scene: &Scene) -> Result<(), Fatal> {
+        let metres = DMat4::from_scale(DVec3::splat(self.brep.unit_in_metres));
+        for root in scene.root_definitions() {
+            self.definition(&root, metres, 0)?;
+        }
+        // Some files tell the same assembly both ways: what a product has placed is not placed again.
+        let told = self.seen.clone();
+        let inner: HashSet<EntityKey> = scene
+            .all_mapped_instances()
+            .flat_map(|m| m.mapped_children().collect::<Vec<_>>())
+            .map(|m| m.key())
+            .collect();
+        for item in scene.all_mapped_instances().filter(|m| !inner.contains(&m.key())) {
+            self.mapped(&item, metres, 0, &told)?;
+        }
+        for face in scene.all_faces() {
+            if !self.seen.contains(&face.key()) {
+                self.face(&face, metres, 0)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The number of a new placed copy, or None where nesting is too deep.
+    fn enter(&mut self, level: usize) -> Result<Option<usize>, Fatal> {
+        if level > MOST_LEVELS {
+            let note = "an assembly is nested too deep or contains itself: the rest is left out";
+            if self.brep.notes.last().is_none_or(|n| n != note) {
+                self.note(note.into());
+            }
+            return Ok(None);
+        }
+        self.copies += 1;
+        if self.copies > MOST_FACES {
+            return Err(("assembly".into(), format!("places more than {MOST_FACES} parts")));
+        }
+        Ok(Some(self.copies))
+    }
+
+    /// Everything in a product definition and the parts placed in it.
+    fn definition(&mut self, part: &ProductDef, place: DMat4, level: usize) -> Result<(), Fatal> {
+        let Some(copy) = self.enter(level)? else { return Ok(()) };
+        for solid in part.solids() {
+            for face in solid.faces() {
+                self.face(&face, place, copy)?;
+            }
+            for (void, _) in solid.voids() {
+                for face in void.faces() {
+                    self.face(&face, place, copy)?;
+                }
+            }
+        }
+        for sheet in part.surface_models() {
+            for face in sheet.faces() {
+                self.face(&face, place, copy)?;
+            }
+        }
+        for o in part.occurrences() {
+            let Some(child) = o.definition() else { continue };
+            let local = matrix(o.transform()).unwrap_or(DMat4::IDENTITY);
+            self.definition(&child, place * local, level + 1)?;
+        }
+        Ok(())
+    }
+
+    /// Everything that a mapped item places, but for faces that are `told` already.
+    fn mapped(
+        &mut self,
+        item: &MappedInstance,
+        place: DMat4,
+        level: usize,
+        told: &HashSet<EntityKey>,
+    ) -> Result<(), Fatal> {
+        let solids = item.solids().flat_map(|s| s.faces().collect::<Vec<_>>());
+        let sheets = item.surface_models().flat_map(|s| s.faces().collect::<Vec<_>>());
+        let faces: Vec<Face> = solids.chain(sheets).filter(|f| !told.contains(&f.key())).collect();
+        let children: Vec<MappedInstance> = item.mapped_children().collect();
+        if faces.is_empty() && children.is_empty() {
+            return Ok(());
+        }
+        let Some(local) = matrix(item.transform()) else {
+            self.note(format!("mapped item '{}' has no placement that can be used", item.name()));
+            return Ok(());
+        };
+        let Some(copy) = self.enter(level)? else { return Ok(()) };
+        for face in &faces {
+            self.face(face, place * local, copy)?;
+        }
+        for child in &children {
+            self.mapped(child, place * local, level + 1, told)?;
+        }
+        Ok(())
+    }
+
+    /// One face; left out with a note where it cannot be used.
+    fn face(&mut self, face: &Face, place: DMat4, copy: usize) -> Result<(), Fatal> {
+        self.seen.insert(face.key());
+        if self.brep.faces.len() >= MOST_FACES {
+            return Err(("data section".into(), format!("more than {MOST_FACES} faces")));
+        }
+        match self.try_face(face, place, copy) {
+            Ok(face) => self.brep.faces.push(face),
+            Err(why) => {
+                let name = match face.name() {
+                    "" => String::new(),
+                    name => format!(" '{name}'"),
+                };
+                self.note(format!("{:?}{name} left out: {why}", face.key()));
+            }
+        }
+        Ok(())
+    }
+
+    fn try_face(&mut self, face: &Face, place: DMat4, copy: usize) -> Result<BrepFace, String> {
+        let mut loops = Vec::new();
+        for bound in face.bounds() {
+            let coedges = self.bound(&bound, place, copy)?;
+            // A loop of a single vertex, or of edges without length, only marks a pole.
+            if !coedges.is_empty() {
+                self.check_loop(&coedges)?;
+                loops.push(coedges);
+            }
+        }
+        let points = self.control_points(&loops);
+        let shape = shape::of_face(self.model, face, place, &points)?;
+        let reversed = face.orientation() == Orientation::Reversed;
+        Ok(BrepFace { shape, loops, reversed })
+    }
+
+    fn bound(&mut self, bound: &Bound, place: DMat4, copy: usize) -> Result<Vec<Coedge>, String> {
+        let mut coedges = Vec::new();
+        let mut points = usize::from(bound.vertex().is_some());
+        for (edge, orientation) in bound.oriented_edges() {
+            let reversed = orientation == Orientation::Reversed;
+            match self.edge(&edge, place, copy)? {
+                Some(edge) => coedges.push(Coedge { edge, reversed }),
+                None => points += 1,
+            }
+        }
+        if coedges.is_empty() && points == 0 {
+            return Err("a boundary loop is missing".into());
+        }
+        if bound.orientation() == Orientation::Reversed {
+            coedges.reverse();
+            for c in &mut coedges {
+                c.reversed = !c.reversed;
+            }
+        }
+        Ok(coedges)
+    }
+
+    /// Whether each edge begins where the last one ended.
+    fn check_loop(&self, coedges: &[Coedge]) -> Result<(), String> {
+        let ends = |c: &Coedge| {
+            let [a, b] = self.brep.edges[c.edge as usize].ends;
+            if c.reversed { [b, a] } else { [a, b] }
+        };
+        let at = |v: u32| self.brep.vertices[v as usize];
+        let mut size = 0.0_f64;
+        for c in coedges {
+            let Curve::Nurbs(curve) = &self.brep.edges[c.edge as usize].curve else { continue };
+            let first = at(ends(&coedges[0])[0]);
+            size = curve.points.iter().fold(size, |s, p| s.max(p.distance(first)));
+        }
+        for (i, c) in coedges.iter().enumerate() {
+            let (end, start) = (ends(c)[1], ends(&coedges[(i + 1) % coedges.len()])[0]);
+            let gap = at(end).distance(at(start));
+            if end != start && gap > LOOP_GAP * size {
+                let p = at(end);
+                return Err(format!(
+                    "its loop has a gap of {gap:.4} m at ({:.4}, {:.4}, {:.4})",
+                    p.x, p.y, p.z
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn control_points(&self, loops: &[Vec<Coedge>]) -> Vec<DVec3> {
+        let curve = |c: &Coedge| match &self.brep.edges[c.edge as usize].curve {
+            Curve::Nurbs(curve) => curve.points.clone(),
+            _ => Vec::new(),
+        };
+        loops.iter().flatten().flat_map(curve).collect()
+    }
+
+    /// The edge; None where it is only a point.
+    fn edge(&mut self, edge: &Edge, place: DMat4, copy: usize) -> Result<Option<u32>, String> {
+        let key = (copy, edge.key());
+        if let Some(&known) = self.edges.get(&key) {
+            return Ok(known);
+        }
+        let mut end =
+            |v: Option<Vertex>| self.vertex(v, place, copy).ok_or("an edge has no vertex in reach");
+        let ends = [end(edge.start())?, end(edge.end())?];
+        let closed = ends[0] == ends[1];
+        let at = self.brep.vertices[ends[0] as usize];
+        let Some(curve) = edge.to_nurbs() else {
+            // From a vertex to itself along what does not close: of no length.
+            if closed {
+                self.edges.insert(key, None);
+                return Ok(None);
+            }
+            return Err("an edge has no exact form here".into());
+        };
+        let points = placed(curve.control_points.iter(), place)?;
+        if closed && points.iter().all(|&p| p == points[0]) {
+            self.edges.insert(key, None);
+            return Ok(None);
+        }
+        let curve = NurbsCurve::new(curve.degree, curve.knots, points, plain(curve.weights))
+            .map_err(|e| format!("an edge: {e}"))?;
+        // Two vertices at one place part a closed curve as one does.
+        let apart = at.distance(self.brep.vertices[ends[1] as usize]);
+        let size = curve.points.iter().fold(0.0_f64, |s, p| s.max(p.distance(at)));
+        let closed = closed || curve.closed() && apart <= SAME_PLACE * size;
+        // The parser hands on whole closed curves as they stand, whichever way the edge runs.
+        let curve = if closed && !edge.same_sense() { backwards(&curve) } else { curve };
+        let range = if closed { range_from(&curve, at) } else { curve.domain() };
+        self.brep.edges.push(BrepEdge { curve: Curve::Nurbs(curve), range, ends });
+        let id = self.brep.edges.len() as u32 - 1;
+        self.edges.insert(key, Some(id));
+        Ok(Some(id))
+    }
+
+    fn vertex(&mut self, vertex: Option<Vertex>, place: DMat4, copy: usize) -> Option<u32> {
+        let vertex = vertex?;
+        let key = (copy, vertex.key());
+        if let Some(&known) = self.vertices.get(&key) {
+            return Some(known);
+        }
+        let at = place.transform_point3(vertex.point()?.xyz().into());
+        if !at.is_finite() || at.abs().max_element() > MOST_METRES {
+            return None;
+        }
+        self.brep.vertices.push(at);
+        let id = self.brep.vertices.len() as u32 - 1;
+        self.vertices.insert(key, id);
+        Some(id)
+    }
+}
+
+fn matrix(transform: Option<Transform>) -> Option<DMat4> {
+    transform?.matrix().map(|m| DMat4::from_cols_array_2d(&m).transpose())
+}
+
+/// Points of the file at their place in metres.
+pub(super) fn placed<'a>(
+    points: impl Iterator<Item = &'a [f64; 3]>,
+    place: DMat4,
+) -> Result<Vec<DVec3>, String> {
+    let points: Vec<DVec3> = points.map(|&p| place.transform_point3(p.into())).collect();
+    let far = points.iter().find(|p| !p.is_finite() || p.abs().max_element() > MOST_METRES);
+    match far {
+        Some(p) => Err(format!(
+            "a point at ({:e}, {:e}, {:e}) m is out of reach ({MOST_METRES:e} m)",
+            p.x, p.y, p.z
+        )),
+        None => Ok(points),
+    }
+}
+
+/// Weights, or none where all are 1.
+pub(super) fn plain(weights: Vec<f64>) -> Vec<f64> {
+    if weights.iter().all(|&w| w == 1.0) { Vec::new() } else { weights }
+}
+
+/// The same curve run from its end to its start.
+fn backwards(curve: &NurbsCurve) -> NurbsCurve {
+    let mut back = curve.clone();
+    back.points.reverse();
+    back.weights.reverse();
+    back.knots = curve.knots.iter().rev().map(|k| -k).collect();
+    back
+}
+
+/// The range of a closed curve that begins and ends at `at`.
+fn range_from(curve: &NurbsCurve, at: DVec3) -> [f64; 2] {
+    let [a, b] = curve.domain();
+    let whole = Curve::Nurbs(curve.clone());
+    let probe = |i: i32| a + (b - a) * f64::from(i) / 64.0;
+    let size = (0..64).map(|i| curve.point(probe(i)).distance(at)).fold(0.0, f64::max);
+    if !curve.closed() || curve.point(a).distance(at) <= AT_VERTEX * size {
+        return [a, b];
+    }
+    let near = (0..64)
+        .map(probe)
+        .min_by(|&s, &t| curve.point(s).distance(at).total_cmp(&curve.point(t).distance(at)))
+        .unwrap_or(a);
+    let (t, _) = whole.project(near, [a, b], at);
+    [t, t + (b - a)]
+}

@@ -1,0 +1,232 @@
+//! STEP texts made here, read: units, ways of edges, and what is refused.
+
+use super::*;
+use crate::surface::{Sampling, tessellate};
+use glam::DVec3;
+
+/// A plate of 4 x 2 (in the unit) in the plane z = 1 with a round hole of radius 0.5; the hole's circle
+/// is run backwards and begins a quarter past the circle's own start.
+fn plate(unit: &str, plane: &str) -> String {
+    plate_of(unit, plane, ["0.,0.,1.", "4.,0.,1.", "4.,2.,1.", "0.,2.,1."])
+}
+
+/// The same with other corners.
+fn plate_of(unit: &str, plane: &str, corners: [&str; 4]) -> String {
+    use std::fmt::Write;
+    let ways = ["1.,0.,0.", "0.,1.,0.", "-1.,0.,0.", "0.,-1.,0."];
+    let mut data = String::new();
+    for (i, (corner, way)) in corners.iter().zip(ways).enumerate() {
+        let next = (i + 1) % 4;
+        writeln!(
+            data,
+            "#1{i}=CARTESIAN_POINT('',({corner}));#2{i}=VERTEX_POINT('',#1{i});
+#3{i}=DIRECTION('',({way}));#4{i}=VECTOR('',#3{i},1.);#5{i}=LINE('',#1{i},#4{i});
+#6{i}=EDGE_CURVE('',#2{i},#2{next},#5{i},.T.);#7{i}=ORIENTED_EDGE('',*,*,#6{i},.T.);"
+        )
+        .unwrap();
+    }
+    format!(
+        "ISO-10303-21;HEADER;FILE_DESCRIPTION((''),'2;1');
+FILE_NAME('','',(''),(''),'','','');FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));ENDSEC;DATA;
+#1=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT({unit},.METRE.));
+#2=(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.));
+#3=(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT());
+#4=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#1,#2,#3))
+REPRESENTATION_CONTEXT('',''));
+{data}#80=EDGE_LOOP('',(#70,#71,#72,#73));#81=FACE_BOUND('',#80,.T.);
+#90=CARTESIAN_POINT('',(2.,1.,1.));#91=DIRECTION('',(0.,0.,1.));#92=DIRECTION('',(1.,0.,0.));
+#93=AXIS2_PLACEMENT_3D('',#90,#91,#92);#94=CIRCLE('',#93,0.5);
+#95=CARTESIAN_POINT('',(2.,1.5,1.));#96=VERTEX_POINT('',#95);
+#97=EDGE_CURVE('',#96,#96,#94,.F.);#98=ORIENTED_EDGE('',*,*,#97,.T.);
+#99=EDGE_LOOP('',(#98));#100=FACE_BOUND('',#99,.T.);
+#101={plane};
+#102=ADVANCED_FACE('plate',(#81,#100),#101,.T.);
+#103=OPEN_SHELL('',(#102));#104=SHELL_BASED_SURFACE_MODEL('',(#103));
+#105=MANIFOLD_SURFACE_SHAPE_REPRESENTATION('',(#104),#4);
+ENDSEC;END-ISO-10303-21;
+"
+    )
+}
+
+#[test]
+fn plate_with_a_hole_is_read_in_its_unit() {
+    for (name, unit) in [("$", 1.0), (".MILLI.", 0.001)] {
+        let brep = parse(plate(name, "PLANE('',#93)").as_bytes()).unwrap();
+        assert_eq!((brep.faces.len(), brep.edges.len(), brep.vertices.len()), (1, 5, 5));
+        assert_eq!(brep.unit_in_metres, unit);
+        assert_eq!(brep.source.version, "AP214");
+        assert_eq!(brep.source.unit.as_ref().unwrap().metres, unit);
+        let sampling =
+            Sampling { max_edge: 0.3 * unit, chord_error: 0.002 * unit, corner_angle: 0.5 };
+        let surface = tessellate(&brep, &sampling).unwrap();
+        assert_eq!(surface.loops.len(), 2);
+        assert_eq!(surface.loops[0].corners.len(), 4);
+        assert!(surface.loops[1].corners.is_empty());
+        let exact = (8.0 - 0.25 * std::f64::consts::PI) * unit * unit;
+        assert!((surface.area / exact - 1.0).abs() < 1e-5, "{}", surface.area);
+    }
+}
+
+#[test]
+fn closed_edge_begins_at_its_vertex_and_runs_its_way() {
+    let brep = parse(plate("$", "PLANE('',#93)").as_bytes()).unwrap();
+    let hole = brep.edges.iter().find(|e| e.ends[0] == e.ends[1]).unwrap();
+    let [a, b] = hole.range;
+    assert!(hole.curve.point(a).distance(DVec3::new(2.0, 1.5, 1.0)) < 1e-9);
+    assert!(hole.curve.point(b).distance(DVec3::new(2.0, 1.5, 1.0)) < 1e-9);
+    // Against the circle's own direction: from the top of the hole to the right.
+    assert!(hole.curve.point(a + 0.1 * (b - a)).x > 2.1);
+}
+
+#[test]
+fn unknown_surface_is_named_not_swallowed() {
+    let (_, what) = parse(plate("$", "FANCY_SURFACE('',#93)").as_bytes()).unwrap_err();
+    assert!(what.contains("no face") && what.contains("FANCY_SURFACE"), "{what}");
+}
+
+#[test]
+fn text_that_is_no_step_file_is_an_error() {
+    for text in ["", "solid cube", "ISO-10303-21;HEADER;ENDSEC;DATA;#1=", "ISO-10303-21;"] {
+        assert!(parse(text.as_bytes()).is_err());
+    }
+}
+
+#[test]
+fn missing_file_is_named() {
+    let e = read(Path::new("no/such/roof.step")).unwrap_err().to_string();
+    assert!(e.contains("roof.step"), "{e}");
+}
+
+#[test]
+fn coordinates_out_of_reach_are_refused_with_the_point() {
+    for far in ["1.E15,0.,1.", "-1.E300,0.,1."] {
+        let corners = ["0.,0.,1.", far, "4.,2.,1.", "0.,2.,1."];
+        let (_, what) = parse(plate_of("$", "PLANE('',#93)", corners).as_bytes()).unwrap_err();
+        assert!(what.contains("no face") && what.len() > 40, "{what}");
+    }
+}
+
+#[test]
+fn what_is_no_number_is_refused() {
+    for odd in ["NAN,0.,1.", "4.,$,1.", "'four',0.,1.", ".INF.,0.,1.", "1.E400,0.,1."] {
+        let corners = ["0.,0.,1.", odd, "4.,2.,1.", "0.,2.,1."];
+        let (_, what) = parse(plate_of("$", "PLANE('',#93)", corners).as_bytes()).unwrap_err();
+        assert!(!what.is_empty(), "{what}");
+    }
+}
+
+#[test]
+fn faces_without_area_are_left_out_with_a_note() {
+    let corners = ["0.,0.,1.", "4.,0.,1.", "2.,0.,1.", "1.,0.,1."];
+    let flat = plate_of("$", "PLANE('',#93)", corners).replace("(#81,#100)", "(#81)");
+    let (_, what) = parse(flat.as_bytes()).unwrap_err();
+    assert!(what.contains("plate"), "{what}");
+}
+
+#[test]
+fn outline_that_crosses_itself_is_refused_with_the_place() {
+    let corners = ["0.,0.,1.", "4.,2.,1.", "4.,0.,1.", "0.,2.,1."];
+    let bow = plate_of("$", "PLANE('',#93)", corners).replace("(#81,#100)", "(#81)");
+    let sampling = Sampling { max_edge: 0.3, chord_error: 0.002, corner_angle: 0.5 };
+    let brep = parse(bow.as_bytes()).unwrap();
+    let Err(e) = tessellate(&brep, &sampling) else { panic!("a bow tie is no face") };
+    assert!(e.to_string().contains("crosses itself near (2."), "{e}");
+}
+
+#[test]
+fn loop_with_a_missing_edge_leaves_its_face_out() {
+    let open = plate("$", "PLANE('',#93)").replace("(#70,#71,#72,#73)", "(#70,#71,#73)");
+    let (_, what) = parse(open.as_bytes()).unwrap_err();
+    assert!(what.contains("gap of 4.0000 m"), "{what}");
+    let dangling = plate("$", "PLANE('',#93)").replace("#62=EDGE_CURVE", "#962=EDGE_CURVE");
+    let (_, what) = parse(dangling.as_bytes()).unwrap_err();
+    assert!(what.contains('#'), "{what}");
+}
+
+/// Products that hold each other: `uses` are pairs of a whole and a part in it.
+fn products(count: usize, uses: &[(usize, usize)]) -> String {
+    use std::fmt::Write;
+    let mut data = String::from(
+        "#200=APPLICATION_CONTEXT('');#201=PRODUCT_CONTEXT('',#200,'mechanical');
+#202=PRODUCT_DEFINITION_CONTEXT('part definition',#200,'design');\n",
+    );
+    for i in 0..count {
+        let id = 300 + 10 * i;
+        writeln!(
+            data,
+            "#{id}=PRODUCT('p{i}','p{i}','',(#201));
+#{}=PRODUCT_DEFINITION_FORMATION('','',#{id});
+#{}=PRODUCT_DEFINITION('design','',#{},#202);",
+            id + 1,
+            id + 2,
+            id + 1
+        )
+        .unwrap();
+    }
+    for (k, (whole, part)) in uses.iter().enumerate() {
+        let [whole, part] = [whole, part].map(|i| 302 + 10 * i);
+        let id = 20_000 + k;
+        writeln!(data, "#{id}=NEXT_ASSEMBLY_USAGE_OCCURRENCE('{k}','','',#{whole},#{part},$);")
+            .unwrap();
+    }
+    plate("$", "PLANE('',#93)").replace("ENDSEC;END-ISO", &format!("{data}ENDSEC;END-ISO"))
+}
+
+#[test]
+fn assemblies_that_hold_themselves_end() {
+    // 0 holds 1, 1 and 2 hold each other; then alone, then twice over at every level.
+    let brep = parse(products(3, &[(0, 1), (1, 2), (2, 1)]).as_bytes()).unwrap();
+    assert_eq!(brep.faces.len(), 1);
+    assert!(brep.notes.iter().any(|n| n.contains("contains itself")), "{:?}", brep.notes);
+    assert_eq!(parse(products(1, &[(0, 0)]).as_bytes()).unwrap().faces.len(), 1);
+    let doubled = products(3, &[(0, 1), (1, 2), (1, 2), (2, 1), (2, 1)]);
+    let (_, what) = parse(doubled.as_bytes()).unwrap_err();
+    assert!(what.contains("parts"), "{what}");
+}
+
+#[test]
+fn deep_nesting_and_huge_counts_end_in_an_error() {
+    let deep = "(".repeat(200_000);
+    let text = plate("$", &format!("PLANE('',{deep}#93)"));
+    assert!(parse(text.as_bytes()).is_err());
+    for times in ["(2000000000,2000000000)", "(-1,5)", "(2)"] {
+        let spline = format!(
+            "B_SPLINE_SURFACE_WITH_KNOTS('',1,1,((#10,#11),(#13,#12)),.UNSPECIFIED.,.F.,.F.,.F.,
+{times},(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.)"
+        );
+        let (_, what) = parse(plate("$", &spline).as_bytes()).unwrap_err();
+        assert!(what.contains("no face"), "{what}");
+    }
+}
+
+#[test]
+fn mapped_items_are_placed() {
+    // The plate's representation stamped 10 to the right, and turned a quarter about z at 20.
+    let placed = plate("$", "PLANE('',#93)").replace(
+        "ENDSEC;END-ISO",
+        "#400=CARTESIAN_POINT('',(0.,0.,0.));#401=AXIS2_PLACEMENT_3D('',#400,$,$);
+#402=REPRESENTATION_MAP(#401,#105);
+#403=CARTESIAN_POINT('',(10.,0.,0.));#404=AXIS2_PLACEMENT_3D('',#403,$,$);
+#405=MAPPED_ITEM('right',#402,#404);
+#406=CARTESIAN_POINT('',(20.,0.,0.));#407=DIRECTION('',(0.,1.,0.));
+#408=AXIS2_PLACEMENT_3D('',#406,$,#407);#409=MAPPED_ITEM('turned',#402,#408);
+#410=SHAPE_REPRESENTATION('',(#405,#409),#4);
+ENDSEC;END-ISO",
+    );
+    let brep = parse(placed.as_bytes()).unwrap();
+    assert_eq!(brep.faces.len(), 2);
+    let has =
+        |x: f64, y: f64| brep.vertices.iter().any(|v| v.distance(DVec3::new(x, y, 1.0)) < 1e-12);
+    assert!(has(14.0, 2.0) && has(18.0, 4.0) && !has(4.0, 2.0), "{:?}", brep.vertices);
+}
+
+#[test]
+fn edges_without_length_mark_a_pole_only() {
+    let text = plate("$", "PLANE('',#93)").replace(
+        "#80=EDGE_LOOP('',(#70,",
+        "#110=EDGE_CURVE('',#20,#20,#50,.T.);#111=ORIENTED_EDGE('',*,*,#110,.T.);
+#80=EDGE_LOOP('',(#111,#70,",
+    );
+    let brep = parse(text.as_bytes()).unwrap();
+    assert_eq!((brep.faces.len(), brep.faces[0].loops[0].len()), (1, 4));
+}
