@@ -4,7 +4,7 @@ use crate::Outcome;
 use crate::args::Inspect;
 use crate::failure::Failure;
 use crate::{say, table};
-use gridshell::io;
+use gridshell::io::{self, Opening};
 use gridshell::recipe::Recipe;
 use gridshell::run::SurfaceSummary;
 use gridshell::surface::{Model, Sampling};
@@ -26,7 +26,8 @@ struct Document {
 }
 
 pub fn run(args: &Inspect) -> Result<Outcome, Failure> {
-    let model = io::open(&args.surface).map_err(Failure::of_input)?;
+    let opening = Opening { unit: args.units };
+    let model = io::open_with(&args.surface, &opening).map_err(Failure::of_input)?;
     let surface = model.surface(&sampling(&model))?;
     let summary = SurfaceSummary::new(&model, &surface);
     if args.json {

@@ -5,6 +5,7 @@ use crate::args::Measure;
 use crate::failure::Failure;
 use crate::{say, table};
 use gridshell::grid::Grid;
+use gridshell::io::Opening;
 use gridshell::recipe::Recipe;
 use gridshell::run::SurfaceSummary;
 use gridshell::stages::measure::{IrregularNode, Quality, irregular_nodes, measure};
@@ -27,7 +28,10 @@ struct Document {
 }
 
 pub fn run(args: &Measure) -> Result<Outcome, Failure> {
-    let mesh = io::read_mesh(&args.grid).map_err(Failure::of_input)?;
+    // Where both are given, the unit is the surface's: our grids state their own.
+    let opening = Opening { unit: args.units };
+    let of_grid = if args.surface.is_some() { Opening::default() } else { opening.clone() };
+    let mesh = io::read_mesh_with(&args.grid, &of_grid).map_err(Failure::of_input)?;
     let panels = panels(&mesh).map_err(|m| Failure::input(&args.grid, m))?;
     let edge_length = mean_side(&mesh.points, &panels);
     let recipe = Recipe::default();
@@ -37,7 +41,7 @@ pub fn run(args: &Measure) -> Result<Outcome, Failure> {
             (grid, surface, None)
         }
         Some(name) => {
-            let model = io::open(name).map_err(Failure::of_input)?;
+            let model = io::open_with(name, &opening).map_err(Failure::of_input)?;
             let surface = sample(&model, edge_length, &recipe)?;
             let grid = Grid::from_panels(mesh.points, &panels, &surface)?;
             let summary = SurfaceSummary::new(&model, &surface);

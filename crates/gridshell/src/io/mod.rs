@@ -1,35 +1,63 @@
 //! Readers and writers, one file per format, and surfaces by name.
 
+mod compas;
+mod far;
 mod file;
+mod fins;
+mod gltf;
 mod grid_file;
+mod json;
 mod lines;
+mod merge;
 mod obj;
 mod off;
 mod ply;
 mod scan;
+mod soup;
 pub mod step;
 mod stl;
+mod turn;
+mod unit;
 mod values;
 mod weld;
 
 pub use grid_file::GridFile;
 pub use lines::{read_anchors, read_guides};
+pub use unit::LengthUnit;
 pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
 use crate::surface::{Model, PolygonMesh, builtin};
+use soup::Soup;
 use std::path::Path;
 
 /// Extensions of the mesh formats.
-const MESH_FORMATS: &str = "obj, ply, stl, off";
+const MESH_FORMATS: &str = "obj, ply, stl, off, gltf, glb, json";
+/// Extensions of the formats that a grid is written in.
+const GRID_FORMATS: &str = "obj, ply, stl, off";
 /// Extensions of all formats that hold a surface.
-const SURFACE_FORMATS: &str = "step, stp, obj, ply, stl, off";
+const SURFACE_FORMATS: &str = "step, stp, obj, ply, stl, off, gltf, glb, json";
+
+/// How a file is to be opened.
+#[derive(Clone, Debug, Default)]
+pub struct Opening {
+    /// Unit of the lengths in a mesh file, where the file states none or the wrong one; without it metres.
+    pub unit: Option<LengthUnit>,
+}
+
+/// As [`open_with`], in the usual way.
+///
+/// # Errors
+/// As [`open_with`].
+pub fn open(name_or_path: &str) -> Result<Model> {
+    open_with(name_or_path, &Opening::default())
+}
 
 /// A built-in surface by its name, else the file at this path.
 ///
 /// # Errors
 /// [`Error::Option`] listing the built-in names when there is neither; what [`load`] says of the file.
-pub fn open(name_or_path: &str) -> Result<Model> {
+pub fn open_with(name_or_path: &str, opening: &Opening) -> Result<Model> {
     if let Some(model) = builtin::model(name_or_path) {
         return Ok(model);
     }
@@ -41,33 +69,66 @@ pub fn open(name_or_path: &str) -> Result<Model> {
             names.join(", ")
         )));
     }
-    load(path)
+    load(path, opening)
 }
 
 /// The surface in a file, by its extension.
 ///
 /// # Errors
 /// [`Error::Io`], [`Error::Parse`] with line or entity, [`Error::Surface`] where the contents are no
-/// manifold surface, [`Error::Option`] listing the known extensions for an unknown one.
-pub fn load(path: &Path) -> Result<Model> {
+/// manifold surface, [`Error::Option`] listing the known extensions for an unknown one, or where a unit is given
+/// for a format that always states its own.
+pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
     match extension(path).as_str() {
-        "step" | "stp" => step::read(path).map(Model::Brep),
-        "obj" | "ply" | "stl" | "off" => read_mesh(path).map(Model::Mesh),
+        "step" | "stp" => {
+            refuse_unit(path, opening)?;
+            step::read(path).map(Model::Brep)
+        }
+        _ if mesh_reader(path).is_some() => read_mesh_with(path, opening).map(Model::Mesh),
         _ => Err(unknown(path, SURFACE_FORMATS)),
     }
 }
 
-/// The mesh in a file, by its extension: welded, oriented, without degenerate faces.
+fn refuse_unit(path: &Path, opening: &Opening) -> Result<()> {
+    let Some(unit) = opening.unit else { return Ok(()) };
+    Err(Error::Option(format!(
+        "{}: the format states its own unit; leave out `--units {}`",
+        path.display(),
+        unit.name()
+    )))
+}
+
+/// As [`read_mesh_with`], in the usual way.
 ///
 /// # Errors
 /// As [`load`].
 pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
+    read_mesh_with(path, &Opening::default())
+}
+
+/// The mesh in a file, by its extension: in metres, welded, oriented, without degenerate faces.
+///
+/// # Errors
+/// As [`load`].
+pub fn read_mesh_with(path: &Path, opening: &Opening) -> Result<PolygonMesh> {
+    let read = mesh_reader(path).ok_or_else(|| unknown(path, MESH_FORMATS))?;
+    if matches!(extension(path).as_str(), "gltf" | "glb") {
+        refuse_unit(path, opening)?;
+    }
+    weld::weld(path, read(path)?, opening.unit)
+}
+
+type MeshReader = fn(&Path) -> Result<Soup>;
+
+fn mesh_reader(path: &Path) -> Option<MeshReader> {
     match extension(path).as_str() {
-        "obj" => obj::read(path),
-        "ply" => ply::read(path),
-        "stl" => stl::read(path),
-        "off" => off::read(path),
-        _ => Err(unknown(path, MESH_FORMATS)),
+        "obj" => Some(obj::read),
+        "ply" => Some(ply::read),
+        "stl" => Some(stl::read),
+        "off" => Some(off::read),
+        "gltf" | "glb" => Some(gltf::read::read),
+        "json" => Some(compas::read::read),
+        _ => None,
     }
 }
 
@@ -94,7 +155,7 @@ fn encoder(path: &Path) -> Result<fn(&GridFile) -> Vec<u8>> {
         "ply" => Ok(ply::encode),
         "stl" => Ok(stl::encode),
         "off" => Ok(off::encode),
-        _ => Err(unknown(path, MESH_FORMATS)),
+        _ => Err(unknown(path, GRID_FORMATS)),
     }
 }
 
