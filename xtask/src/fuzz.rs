@@ -2,7 +2,6 @@
 //!
 //! Inputs that did something new are kept in `fuzz/corpus`, which is not shared; finds in `fuzz/artifacts`.
 
-use crate::build::cargo;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -65,12 +64,16 @@ fn fuzz(folder: &Path, target: &str, minutes: u64) -> Result<(), String> {
     ];
     let [folder, corpus, seeds] = [folder, &corpus, &seeds].map(|p| p.display().to_string());
     // There is no unsafe code of ours to watch, so no sanitizer: many times as many files are tried.
-    let mut args = vec!["+nightly", "fuzz", "run", "--sanitizer", "none", "--fuzz-dir", &folder];
-    args.extend([target, &corpus, &seeds, "--"]);
-    args.extend(limits.iter().map(String::as_str));
-    // Told to the tool that runs this, and in the way of the other compiler.
-    let clear = [("RUSTUP_TOOLCHAIN", "nightly"), ("CARGO", "cargo")];
-    cargo(&args, &clear)
+    let status = Command::new("cargo-fuzz")
+        .args(["fuzz", "run", "--sanitizer", "none", "--fuzz-dir", &folder])
+        .args([target, &corpus, &seeds, "--"])
+        .args(limits)
+        // The cargo that runs this is told in these variables, and is another one.
+        .env("RUSTUP_TOOLCHAIN", "nightly")
+        .env("CARGO", "cargo")
+        .status()
+        .map_err(|e| format!("cargo-fuzz does not start: {e}"))?;
+    if status.success() { Ok(()) } else { Err(format!("{target}: see fuzz/artifacts/{target}")) }
 }
 
 /// The names of the targets, in alphabetical order.

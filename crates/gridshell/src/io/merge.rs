@@ -34,8 +34,8 @@ pub(super) fn close(work: &mut Work, digits: Digits) {
         }
     };
     let tolerance = rounding.min(MOST * size).max(SAME * size);
-    // Cells are much wider than the tolerance, so that most points touch one cell only.
-    let cell = 64.0 * tolerance.max(f64::MIN_POSITIVE);
+    // Cells are wider than the tolerance, so that most points touch one cell only, but hold few that differ.
+    let cell = 16.0 * tolerance.max(f64::MIN_POSITIVE);
     let key = |p: DVec3| ((p - low) / cell).floor().to_array().map(|c| c as i64);
     let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
     let mut keep: Vec<u32> = (0..work.points.len() as u32).collect();

@@ -284,6 +284,12 @@ fn coordinates_beyond_all_bounds_are_named() {
 }
 
 #[test]
+fn faces_without_any_area_are_refused() {
+    let text = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 5 0 0\nf 1 2 3\nf 2 4 3\n";
+    assert!(Scratch::new("flat.obj", text).refused().contains("no area"));
+}
+
+#[test]
 fn face_cut_open_to_its_hole_keeps_its_area() {
     // A square ring as one polygon: round the outside, in along a cut, round the hole, out again.
     let text = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 3 1 0\nv 3 3 0\nv 1 3 0\n\

@@ -15,6 +15,8 @@ use std::path::Path;
 
 /// Farther from the origin, metres, nothing is built, and coordinates have lost the digits for a grid.
 const FARTHEST: f64 = 1e9;
+/// A surface has more area than this share of its length squared.
+const NO_AREA: f64 = 1e-9;
 /// Faces with more corners are told where nearly all others have up to four: they often stand for openings.
 const MANY_SIDES: usize = 8;
 /// Faces with more corners are refused: nothing that was modelled has them.
@@ -54,6 +56,7 @@ pub(super) fn weld(path: &Path, soup: Soup, unit: Option<LengthUnit>) -> Result<
     if work.faces.is_empty() {
         return Err(Error::Surface(format!("{}: the file holds no faces", path.display())));
     }
+    check_area(path, &work)?;
     fins::cut(path, &mut work)?;
     let neighbors = neighbors(&work.faces);
     turn::alike(path, &mut work, &neighbors)?;
@@ -161,6 +164,19 @@ impl Work {
         self.notes.push(format!("dropped {count} {what}, the first is face {number}"));
         self.drop_faces(gone);
     }
+}
+
+/// Refuse faces that all together have no area to speak of.
+fn check_area(path: &Path, work: &Work) -> Result<()> {
+    let area: f64 = work.faces.iter().map(|face| work.area(face)).sum();
+    let corners = work.faces.iter().flatten().map(|&v| work.points[v as usize]);
+    let (low, high) = bounds(corners);
+    if area > NO_AREA * (high - low).length_squared() {
+        return Ok(());
+    }
+    let count = work.faces.len();
+    let message = format!("{}: the {count} faces have no area: they lie on a line", path.display());
+    Err(Error::Surface(message))
 }
 
 fn unit_note(stated: Option<LengthUnit>, wanted: Option<LengthUnit>) -> Option<String> {

@@ -12,6 +12,9 @@ use std::path::Path;
 /// What faces are marked with, if false, that stand for openings in a form diagram.
 const LOADED: [&str; 2] = ["is_loaded", "_is_loaded"];
 
+/// More meshes of a session are not looked at.
+const MOST_MESHES: usize = 1000;
+
 /// A mesh found in a file.
 struct Found<'a> {
     /// The names that lead to it, by dots.
@@ -28,7 +31,7 @@ struct Found<'a> {
 pub(in crate::io) fn read(path: &Path) -> Result<Soup> {
     let tree = json::parse(path, &file::read(path)?)?;
     let mut found = Vec::new();
-    find(&tree, String::new(), "", &mut found);
+    find(&tree, &mut Vec::new(), "", &mut found);
     let Some(best) =
         (0..found.len()).reduce(|a, b| if rank(&found[b]) > rank(&found[a]) { b } else { a })
     else {
@@ -60,25 +63,40 @@ impl Found<'_> {
     }
 }
 
-/// All meshes below `tree`, in the file's order. The depth is bounded by the parser.
-fn find<'a>(tree: &'a Json, way: String, kind: &'a str, found: &mut Vec<Found<'a>>) {
+/// A step on the way to a mesh: the name of a member, or the place in a list.
+enum Step<'a> {
+    Name(&'a str),
+    Place(usize),
+}
+
+/// The meshes below `tree`, in the file's order. The depth is bounded by the parser.
+fn find<'a>(tree: &'a Json, way: &mut Vec<Step<'a>>, kind: &'a str, found: &mut Vec<Found<'a>>) {
+    if found.len() >= MOST_MESHES {
+        return;
+    }
     let kind = tree.get("dtype").and_then(Json::text).unwrap_or(kind);
     let is_map = |name: &str| matches!(tree.get(name), Some(Json::Map(_)));
     if is_map("vertex") && is_map("face") {
-        found.push(Found { way, kind, mesh: tree });
+        found.push(Found { way: told_way(way), kind, mesh: tree });
         return;
     }
-    let step = |name: &str| if way.is_empty() { name.to_owned() } else { format!("{way}.{name}") };
-    for (name, value) in tree.members() {
+    let named = tree.members().iter().map(|(name, value)| (Step::Name(name), value));
+    let placed = tree.list().unwrap_or_default().iter().enumerate();
+    for (step, value) in named.chain(placed.map(|(k, value)| (Step::Place(k), value))) {
         if matches!(value, Json::Map(_) | Json::List(_)) {
-            find(value, step(name), kind, found);
+            way.push(step);
+            find(value, way, kind, found);
+            way.pop();
         }
     }
-    for (k, value) in tree.list().into_iter().flatten().enumerate() {
-        if matches!(value, Json::Map(_) | Json::List(_)) {
-            find(value, step(&k.to_string()), kind, found);
-        }
-    }
+}
+
+fn told_way(way: &[Step]) -> String {
+    let told = |step: &Step| match step {
+        Step::Name(name) => scan::clip(name),
+        Step::Place(k) => k.to_string(),
+    };
+    way.iter().map(told).collect::<Vec<_>>().join(".")
 }
 
 /// How likely a mesh is the surface: a thrust diagram is, form and force diagrams are drawings in the plane.
