@@ -12,7 +12,7 @@ use crate::recipe::{Effort, Recipe, RegularizeMethod};
 /// Up to so many nodes the recipe's counts hold in full.
 const FULL: f64 = 2000.0;
 /// Below so many nodes there are more candidates, up to this factor.
-const SMALL: f64 = 1000.0;
+const SMALL: f64 = 1200.0;
 const MORE: f64 = 2.0;
 /// Fewest draws and candidates of a large grid (or the recipe's, where it asks for fewer).
 const LEAST_DRAWS: usize = 16;
