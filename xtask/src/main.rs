@@ -1,4 +1,4 @@
-//! The project's own chores: `cargo xtask lint | test | cases | bench | picture | pictures`.
+//! The project's own chores: `cargo xtask lint | test | cases | bench | picture | pictures | fuzz`.
 //!
 //! Everything here builds in the dev profile, so that the dependencies are compiled once; only the chores that
 //! lay grids run the release build of the command, because they tell times or take theirs.
@@ -6,6 +6,7 @@
 mod build;
 mod cases;
 mod check;
+mod fuzz;
 mod laid;
 mod picture;
 mod quality;
@@ -25,7 +26,10 @@ usage: cargo xtask CHORE
                           some are named; --cases: on STEP files, --quick: one seed
   pictures [--cases FOLDER] [NAME]...
                           a plan and a perspective of each of these grids, into docs/gallery
-  picture SURFACE FILE    a grid on SURFACE seen from above, as a PNG";
+  picture SURFACE FILE    a grid on SURFACE seen from above, as a PNG
+  fuzz [READER]... [--minutes N]
+                          damaged files for every reader (or these), 15 minutes each; needs the nightly
+                          compiler and cargo-fuzz";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -35,6 +39,7 @@ fn main() -> ExitCode {
         ["test"] => check::lint().and_then(|()| check::test()),
         ["cases", folder, names @ ..] => cases::run(folder.as_ref(), names),
         ["picture", surface, file] => picture::plan(surface, file.as_ref()),
+        ["fuzz", rest @ ..] => fuzz::Plan::parse(rest).and_then(|plan| fuzz::run(&plan)),
         ["bench", "quality", rest @ ..] => Scope::parse(rest).and_then(|s| quality::bench(&s)),
         ["pictures", rest @ ..] => Scope::parse(rest).and_then(|s| quality::pictures(&s)),
         _ => {

@@ -1,6 +1,7 @@
 //! The arguments.
 
 use clap::{Args as ClapArgs, Parser, Subcommand};
+use gridshell::io::LengthUnit;
 use std::path::PathBuf;
 
 /// Triangular grids for free-form gridshells.
@@ -31,12 +32,15 @@ pub enum Command {
 
 #[derive(ClapArgs)]
 pub struct Generate {
-    /// A file (STEP, OBJ, PLY, STL, OFF) or the name of a built-in surface.
+    /// A file (STEP, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface.
     #[arg(default_value = "great-court")]
     pub surface: String,
     /// Wanted length of the members, metres.
     #[arg(short = 'l', long, value_name = "L", value_parser = positive, conflicts_with = "nodes", allow_negative_numbers = true)]
     pub edge_length: Option<f64>,
+    /// Unit of a mesh file that states none, or the wrong one: mm, cm, m, in or ft. Without it metres.
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    pub units: Option<LengthUnit>,
     /// Wanted number of nodes.
     #[arg(short, long, value_name = "N")]
     pub nodes: Option<usize>,
@@ -104,7 +108,7 @@ pub struct Generate {
 
 #[derive(ClapArgs)]
 pub struct Measure {
-    /// A grid: a triangle mesh (OBJ, PLY, STL, OFF).
+    /// A grid: a triangle mesh (OBJ, PLY, STL, OFF, glTF, COMPAS JSON).
     pub grid: PathBuf,
     /// The surface it was laid on: a file or a built-in name. Without it the grid itself is the surface.
     #[arg(short, long, value_name = "SURFACE")]
@@ -113,6 +117,9 @@ pub struct Measure {
     /// or the size of the model suggests.
     #[arg(long, value_name = "TOL", value_parser = positive, allow_negative_numbers = true)]
     pub sew: Option<f64>,
+    /// Unit of a mesh file that states none, or the wrong one: mm, cm, m, in or ft. Without it metres.
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    pub units: Option<LengthUnit>,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,
@@ -120,12 +127,15 @@ pub struct Measure {
 
 #[derive(ClapArgs)]
 pub struct Inspect {
-    /// A file (STEP, OBJ, PLY, STL, OFF) or the name of a built-in surface.
+    /// A file (STEP, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface.
     pub surface: String,
     /// Faces that lie within this many metres of each other along their edges are joined; without it, what the file
     /// or the size of the model suggests.
     #[arg(long, value_name = "TOL", value_parser = positive, allow_negative_numbers = true)]
     pub sew: Option<f64>,
+    /// Unit of a mesh file that states none, or the wrong one: mm, cm, m, in or ft. Without it metres.
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    pub units: Option<LengthUnit>,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,
@@ -138,6 +148,10 @@ fn positive(text: &str) -> Result<f64, String> {
         Ok(_) => Err("it must be positive, and at most a billion".to_owned()),
         Err(_) => Err("it must be a number".to_owned()),
     }
+}
+
+fn unit(text: &str) -> Result<LengthUnit, String> {
+    text.parse().map_err(|e: gridshell::Error| e.to_string())
 }
 
 /// Three coordinates.

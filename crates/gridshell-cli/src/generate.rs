@@ -16,7 +16,7 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(n));
         pool.build_global().map_err(Failure::other)?;
     }
-    let opening = Opening { sew: args.sew };
+    let opening = Opening { sew: args.sew, unit: args.units };
     let model = io::open_with(&args.surface, &opening).map_err(Failure::of_input)?;
     let (job, bar) = progress::job(args.time_limit);
     let run = pipeline::generate(&model, &recipe, &job);

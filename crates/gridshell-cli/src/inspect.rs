@@ -26,7 +26,7 @@ struct Document {
 }
 
 pub fn run(args: &Inspect) -> Result<Outcome, Failure> {
-    let opening = Opening { sew: args.sew };
+    let opening = Opening { sew: args.sew, unit: args.units };
     let model = io::open_with(&args.surface, &opening).map_err(Failure::of_input)?;
     let surface = model.surface(&sampling(&model))?;
     let summary = SurfaceSummary::new(&model, &surface);

@@ -28,7 +28,10 @@ struct Document {
 }
 
 pub fn run(args: &Measure) -> Result<Outcome, Failure> {
-    let mesh = io::read_mesh(&args.grid).map_err(Failure::of_input)?;
+    // Where both are given, the unit is the surface's: our grids state their own.
+    let opening = Opening { sew: args.sew, unit: args.units };
+    let of_grid = if args.surface.is_some() { Opening::default() } else { opening.clone() };
+    let mesh = io::read_mesh_with(&args.grid, &of_grid).map_err(Failure::of_input)?;
     let panels = panels(&mesh).map_err(|m| Failure::input(&args.grid, m))?;
     let edge_length = mean_side(&mesh.points, &panels);
     let recipe = Recipe::default();
@@ -38,7 +41,6 @@ pub fn run(args: &Measure) -> Result<Outcome, Failure> {
             (grid, surface, None)
         }
         Some(name) => {
-            let opening = Opening { sew: args.sew };
             let model = io::open_with(name, &opening).map_err(Failure::of_input)?;
             let surface = sample(&model, edge_length, &recipe)?;
             let grid = Grid::from_panels(mesh.points, &panels, &surface)?;

@@ -1,30 +1,43 @@
 //! Readers and writers, one file per format, and surfaces by name.
 
+mod compas;
+mod far;
 mod file;
+mod fins;
+mod gltf;
 mod grid_file;
 pub mod iges;
+mod json;
 mod lines;
+mod merge;
 mod obj;
 mod off;
 mod ply;
 mod scan;
+mod soup;
 pub mod step;
 mod stl;
+mod turn;
+mod unit;
 mod values;
 mod weld;
 
 pub use grid_file::GridFile;
 pub use lines::{read_anchors, read_guides};
+pub use unit::LengthUnit;
 pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
 use crate::surface::{Model, PolygonMesh, Source, builtin, sew};
+use soup::Soup;
 use std::path::Path;
 
 /// Extensions of the mesh formats.
-const MESH_FORMATS: &str = "obj, ply, stl, off";
+const MESH_FORMATS: &str = "obj, ply, stl, off, gltf, glb, json";
+/// Extensions of the formats that a grid is written in.
+const GRID_FORMATS: &str = "obj, ply, stl, off";
 /// Extensions of all formats that hold a surface.
-const SURFACE_FORMATS: &str = "step, stp, iges, igs, obj, ply, stl, off";
+const SURFACE_FORMATS: &str = "step, stp, iges, igs, obj, ply, stl, off, gltf, glb, json";
 
 /// How a file is to be opened.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +45,8 @@ pub struct Opening {
     /// Edges of different faces that lie within this many metres of each other are one edge; without it, what the
     /// file or the size of the model suggests.
     pub sew: Option<f64>,
+    /// Unit of the lengths in a mesh file, where the file states none or the wrong one; without it metres.
+    pub unit: Option<LengthUnit>,
 }
 
 /// As [`open_with`], in the usual way.
@@ -65,42 +80,64 @@ pub fn open_with(name_or_path: &str, opening: &Opening) -> Result<Model> {
 ///
 /// # Errors
 /// [`Error::Io`], [`Error::Parse`] with line or entity, [`Error::Surface`] where the contents are no
-/// manifold surface, [`Error::Option`] listing the known extensions for an unknown one, or where the sewing
-/// tolerance is too large for the model.
+/// manifold surface, [`Error::Option`] listing the known extensions for an unknown one, where the sewing tolerance is
+/// too large for the model, or where a unit is given for a format that always states its own.
 pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
-    let mut model = read(path)?;
-    if let Model::Brep(brep) = &mut model {
-        sew(brep, opening.sew)?;
-    }
-    Ok(model)
+    let read = match extension(path).as_str() {
+        "step" | "stp" => step::read,
+        "iges" | "igs" => iges::read,
+        _ if mesh_reader(path).is_some() => return read_mesh_with(path, opening).map(Model::Mesh),
+        _ => return Err(unknown(path, SURFACE_FORMATS)),
+    };
+    refuse_unit(path, opening)?;
+    let mut brep = read(path)?;
+    sew(&mut brep, opening.sew)?;
+    Ok(Model::Brep(brep))
 }
 
-fn read(path: &Path) -> Result<Model> {
-    match extension(path).as_str() {
-        "step" | "stp" => step::read(path).map(Model::Brep),
-        "iges" | "igs" => iges::read(path).map(Model::Brep),
-        "obj" | "ply" | "stl" | "off" => read_mesh(path).map(Model::Mesh),
-        _ => Err(unknown(path, SURFACE_FORMATS)),
-    }
+fn refuse_unit(path: &Path, opening: &Opening) -> Result<()> {
+    let Some(unit) = opening.unit else { return Ok(()) };
+    Err(Error::Option(format!(
+        "{}: the format states its own unit; leave out `--units {}`",
+        path.display(),
+        unit.name()
+    )))
 }
 
-/// The mesh in a file, by its extension: welded, oriented, without degenerate faces.
+/// As [`read_mesh_with`], in the usual way.
 ///
 /// # Errors
 /// As [`load`].
 pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
-    let mut mesh = match extension(path).as_str() {
-        "obj" => obj::read(path),
-        "ply" => ply::read(path),
-        "stl" => stl::read(path),
-        "off" => off::read(path),
-        _ => Err(unknown(path, MESH_FORMATS)),
-    }?;
-    // Most of these formats say nothing more of themselves.
-    if mesh.source.format.is_empty() {
-        mesh.source.format = Source::of_format(&extension(path).to_uppercase()).format;
+    read_mesh_with(path, &Opening::default())
+}
+
+/// The mesh in a file, by its extension: in metres, welded, oriented, without degenerate faces.
+///
+/// # Errors
+/// As [`load`].
+pub fn read_mesh_with(path: &Path, opening: &Opening) -> Result<PolygonMesh> {
+    let read = mesh_reader(path).ok_or_else(|| unknown(path, MESH_FORMATS))?;
+    if matches!(extension(path).as_str(), "gltf" | "glb") {
+        refuse_unit(path, opening)?;
     }
+    let mut mesh = weld::weld(path, read(path)?, opening.unit)?;
+    mesh.source = Source::of_format(&extension(path).to_uppercase());
     Ok(mesh)
+}
+
+type MeshReader = fn(&Path) -> Result<Soup>;
+
+fn mesh_reader(path: &Path) -> Option<MeshReader> {
+    match extension(path).as_str() {
+        "obj" => Some(obj::read),
+        "ply" => Some(ply::read),
+        "stl" => Some(stl::read),
+        "off" => Some(off::read),
+        "gltf" | "glb" => Some(gltf::read::read),
+        "json" => Some(compas::read::read),
+        _ => None,
+    }
 }
 
 /// Write a grid in the format of the path's extension. The file appears whole or not at all.
@@ -126,7 +163,7 @@ fn encoder(path: &Path) -> Result<fn(&GridFile) -> Vec<u8>> {
         "ply" => Ok(ply::encode),
         "stl" => Ok(stl::encode),
         "off" => Ok(off::encode),
-        _ => Err(unknown(path, MESH_FORMATS)),
+        _ => Err(unknown(path, GRID_FORMATS)),
     }
 }
 

@@ -2,47 +2,73 @@
 //! at hand tell no line numbers.
 
 use super::grid_file::GridFile;
-use super::scan;
-use super::{file, weld};
+use super::soup::Soup;
+use super::{LengthUnit, file, scan};
 use crate::error::Result;
-use crate::surface::PolygonMesh;
 use glam::DVec3;
+use std::collections::HashSet;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Read the faces of all objects and groups together. Lines, points, normals, textures and materials are
-/// passed over; curved elements are skipped with a note.
+/// Read the faces of all objects and groups together. Normals, textures and materials are passed over; lines that
+/// are not edges of faces, points and curved elements are skipped with a note. A comment may state the unit.
 ///
 /// # Errors
-/// [`Error::Parse`](crate::Error::Parse) with the line; what [`weld`](super::weld) finds.
-pub(super) fn read(path: &Path) -> Result<PolygonMesh> {
+/// [`Error::Parse`](crate::Error::Parse) with the line.
+pub(super) fn read(path: &Path) -> Result<Soup> {
     let bytes = file::read(path)?;
     // Names and comments may be in any encoding; numbers are ASCII.
     let text = String::from_utf8_lossy(&bytes);
     let joined = if text.contains('\\') { join_continued(&text) } else { text.into_owned() };
-    let mut mesh = PolygonMesh { name: file::stem(path), ..PolygonMesh::default() };
-    let mut curved = 0_usize;
+    let unit = joined
+        .lines()
+        .filter_map(|l| l.trim_start().strip_prefix('#'))
+        .find_map(LengthUnit::stated);
+    let mut soup = Soup { unit, first: 1, ..Soup::default() };
+    let (mut curved, mut dots, mut lines) = (0, 0, Vec::new());
     for line in scan::lines(path, &joined) {
         let mut words = line.text.split_ascii_whitespace();
         match words.next() {
-            Some("v") => mesh.points.push(line.point(&mut words)?),
-            Some("f") => {
-                let face: Result<Vec<u32>> =
-                    words.map(|word| scan::vertex(&line, word, mesh.points.len())).collect();
-                let face = face?;
+            Some("v") => soup.points.push(line.point(&mut words)?),
+            Some("f" | "fo") => {
+                let face = corners(&line, words, soup.points.len())?;
                 if face.len() < 3 {
                     return Err(line.error("a face needs three corners or more"));
                 }
-                mesh.faces.push(face);
+                soup.faces.push(face);
             }
+            Some("l") => lines.push(corners(&line, words, soup.points.len())?),
+            Some("p") => dots += 1,
             Some("curv" | "curv2" | "surf") => curved += 1,
             _ => {}
         }
     }
-    if curved > 0 {
-        mesh.notes.push(format!("skipped {curved} curved elements: only faces are read from OBJ"));
+    let stray = stray_lines(&soup.faces, &lines);
+    soup.note_count(stray, "skipped", "lines that are no edges of faces");
+    soup.note_count(dots, "skipped", "points");
+    soup.note_count(curved, "skipped", "curved elements: only faces are read from OBJ");
+    Ok(soup)
+}
+
+fn corners<'a>(
+    line: &scan::Line,
+    words: impl Iterator<Item = &'a str>,
+    count: usize,
+) -> Result<Vec<u32>> {
+    words.map(|word| scan::vertex(line, word, count)).collect()
+}
+
+/// How many of these polylines leave the edges of the faces: those are no members of a grid.
+fn stray_lines(faces: &[Vec<u32>], lines: &[Vec<u32>]) -> usize {
+    if lines.is_empty() {
+        return 0;
     }
-    weld::weld(path, mesh)
+    let sorted = |a: u32, b: u32| (a.min(b), a.max(b));
+    let around = |f: &Vec<u32>, k: usize| sorted(f[k], f[(k + 1) % f.len()]);
+    let edges: HashSet<(u32, u32)> =
+        faces.iter().flat_map(|f| (0..f.len()).map(move |k| around(f, k))).collect();
+    let leaves = |l: &&Vec<u32>| l.windows(2).any(|w| !edges.contains(&sorted(w[0], w[1])));
+    lines.iter().filter(leaves).count()
 }
 
 /// Join lines that end in a backslash with the next, keeping the count of lines.

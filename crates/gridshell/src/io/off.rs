@@ -2,9 +2,9 @@
 
 use super::grid_file::GridFile;
 use super::scan::{self, Line};
-use super::{file, weld};
+use super::soup::Soup;
+use super::{LengthUnit, file};
 use crate::error::Result;
-use crate::surface::PolygonMesh;
 use glam::DVec3;
 use std::fmt::Write;
 use std::path::Path;
@@ -12,8 +12,8 @@ use std::path::Path;
 /// Read an ASCII OFF file, with or without colours (COFF), normals (NOFF) or texture (STOFF).
 ///
 /// # Errors
-/// [`Error::Parse`](crate::Error::Parse) with the line; what [`weld`](super::weld) finds.
-pub(super) fn read(path: &Path) -> Result<PolygonMesh> {
+/// [`Error::Parse`](crate::Error::Parse) with the line.
+pub(super) fn read(path: &Path) -> Result<Soup> {
     let bytes = file::read(path)?;
     let text = String::from_utf8_lossy(&bytes);
     let mut lines = scan::lines(path, &text);
@@ -21,21 +21,23 @@ pub(super) fn read(path: &Path) -> Result<PolygonMesh> {
         scan::error(path, "end of file", "the file ends before all vertices and faces are given")
     };
     let [vertices, faces] = counts(&mut lines)?.ok_or_else(ends)?;
-    let mut mesh = PolygonMesh { name: file::stem(path), ..PolygonMesh::default() };
+    let comments = text.lines().filter_map(|line| line.split_once('#'));
+    let unit = comments.map(|(_, comment)| comment).find_map(LengthUnit::stated);
+    let mut soup = Soup { unit, ..Soup::default() };
     // The counts are only believed line by line: nothing is set aside for them.
     for _ in 0..vertices {
         let line = lines.next().ok_or_else(ends)?;
-        mesh.points.push(line.point(&mut line.text.split_ascii_whitespace())?);
+        soup.points.push(line.point(&mut line.text.split_ascii_whitespace())?);
     }
     for _ in 0..faces {
         let line = lines.next().ok_or_else(ends)?;
-        let corners = face(&line, mesh.points.len())?;
+        let corners = face(&line, soup.points.len())?;
         // Two corners or one draw a line or a point, which are no part of the surface.
         if corners.len() >= 3 {
-            mesh.faces.push(corners);
+            soup.faces.push(corners);
         }
     }
-    weld::weld(path, mesh)
+    Ok(soup)
 }
 
 /// Numbers of vertices and faces, behind the keyword in the first line or in a line of their own.

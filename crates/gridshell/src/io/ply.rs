@@ -2,9 +2,9 @@
 //! may promise any number of elements: nothing is set aside before the data has been seen.
 
 use super::grid_file::GridFile;
-use super::{file, scan, weld};
+use super::soup::{Digits, Soup};
+use super::{LengthUnit, file, scan};
 use crate::error::{Error, Result};
-use crate::surface::PolygonMesh;
 use glam::DVec3;
 use std::fmt::Write;
 use std::path::Path;
@@ -46,34 +46,36 @@ struct Element {
 struct Head {
     encoding: Encoding,
     elements: Vec<Element>,
+    /// What a comment states.
+    unit: Option<LengthUnit>,
 }
 
 /// Read the elements `vertex` (x, y, z) and `face` (`vertex_indices` or `vertex_index`); others, and other
 /// properties, are passed over.
 ///
 /// # Errors
-/// [`Error::Parse`] with the line of the head or the element of the body; what [`weld`](super::weld) finds.
-pub(super) fn read(path: &Path) -> Result<PolygonMesh> {
+/// [`Error::Parse`] with the line of the head or the element of the body.
+pub(super) fn read(path: &Path) -> Result<Soup> {
     let bytes = file::read(path)?;
     let (head, body) = split_head(path, &bytes)?;
     let mut body = Body { path, encoding: head.encoding, rest: body, place: String::new() };
-    let mut mesh = PolygonMesh { name: file::stem(path), ..PolygonMesh::default() };
+    let mut soup = Soup { unit: head.unit, digits: head.digits(), ..Soup::default() };
     for element in &head.elements {
         match element.name.as_str() {
-            "vertex" => read_vertices(&mut body, element, &mut mesh)?,
-            "face" => read_faces(&mut body, element, &mut mesh)?,
+            "vertex" => read_vertices(&mut body, element, &mut soup)?,
+            "face" => read_faces(&mut body, element, &mut soup)?,
             _ => body.skip(element)?,
         }
     }
     // Faces may stand before the vertices, so their numbers are checked at the end.
-    for (k, face) in mesh.faces.iter().enumerate() {
-        if let Some(v) = face.iter().find(|&&v| v as usize >= mesh.points.len()) {
+    for (k, face) in soup.faces.iter().enumerate() {
+        if let Some(v) = face.iter().find(|&&v| v as usize >= soup.points.len()) {
             let message =
-                format!("it uses vertex {v}, but there are only {}, from 0", mesh.points.len());
+                format!("it uses vertex {v}, but there are only {}, from 0", soup.points.len());
             return Err(scan::error(path, format!("face {k}"), message));
         }
     }
-    weld::weld(path, mesh)
+    Ok(soup)
 }
 
 /// The head's meaning and the bytes behind it.
@@ -85,7 +87,7 @@ fn split_head<'a>(path: &Path, bytes: &'a [u8]) -> Result<(Head, &'a [u8])> {
             "this is no PLY file: it does not begin with `ply`",
         ));
     }
-    let mut head = Head { encoding: Encoding::Text, elements: Vec::new() };
+    let mut head = Head { encoding: Encoding::Text, elements: Vec::new(), unit: None };
     let mut rest = bytes;
     let mut number = 0;
     while let Some(end) = rest.iter().position(|&b| b == b'\n') {
@@ -133,10 +135,23 @@ impl Head {
             ["property", scalar, name] => {
                 self.push(Property { name: name.to_owned(), scalar: parse(scalar)?, list: None })?;
             }
-            ["ply"] | ["comment" | "obj_info", ..] | [] => {}
+            ["comment" | "obj_info", ..] => {
+                self.unit = self.unit.or_else(|| LengthUnit::stated(&words[1..].join(" ")));
+            }
+            ["ply"] | [] => {}
             _ => return Err(format!("`{}` is not understood", scan::clip(&words.join(" ")))),
         }
         Ok(())
+    }
+
+    /// Single where the coordinates are binary floats.
+    fn digits(&self) -> Digits {
+        let vertex = self.elements.iter().find(|e| e.name == "vertex");
+        let x = vertex.and_then(|e| e.properties.iter().find(|p| p.name == "x"));
+        match x.map(|p| p.scalar) {
+            Some(Scalar::F32) => Digits::Single,
+            _ => Digits::Double,
+        }
     }
 
     fn push(&mut self, property: Property) -> std::result::Result<(), String> {
@@ -160,7 +175,7 @@ fn parse(name: &str) -> std::result::Result<Scalar, String> {
     })
 }
 
-fn read_vertices(body: &mut Body, element: &Element, mesh: &mut PolygonMesh) -> Result<()> {
+fn read_vertices(body: &mut Body, element: &Element, soup: &mut Soup) -> Result<()> {
     let place = |name: &str| {
         let found = element.properties.iter().position(|p| p.name == name && p.list.is_none());
         found.ok_or_else(|| {
@@ -182,12 +197,12 @@ fn read_vertices(body: &mut Body, element: &Element, mesh: &mut PolygonMesh) -> 
         if !p.is_finite() {
             return Err(body.error("a coordinate is not finite"));
         }
-        mesh.points.push(p);
+        soup.points.push(p);
     }
     Ok(())
 }
 
-fn read_faces(body: &mut Body, element: &Element, mesh: &mut PolygonMesh) -> Result<()> {
+fn read_faces(body: &mut Body, element: &Element, soup: &mut Soup) -> Result<()> {
     let is_corners = |p: &Property| {
         p.list.is_some() && matches!(p.name.as_str(), "vertex_indices" | "vertex_index")
     };
@@ -214,7 +229,7 @@ fn read_faces(body: &mut Body, element: &Element, mesh: &mut PolygonMesh) -> Res
         });
         let corners: Vec<u32> = corners.collect::<Result<_>>()?;
         if corners.len() >= 3 {
-            mesh.faces.push(corners);
+            soup.faces.push(corners);
         }
     }
     Ok(())

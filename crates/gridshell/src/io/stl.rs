@@ -2,9 +2,9 @@
 //! form holds single precision only: far from the origin, coordinates lose digits (0.25 m at 4,000 km).
 
 use super::grid_file::GridFile;
-use super::{file, scan, weld};
+use super::soup::{Digits, Soup};
+use super::{LengthUnit, file, scan, weld};
 use crate::error::Result;
-use crate::surface::PolygonMesh;
 use glam::{DVec3, Vec3};
 use std::path::Path;
 
@@ -18,14 +18,15 @@ const COARSE: f64 = 1e-5;
 /// Read a binary or text STL file, told apart by its length: binary files may begin with `solid` too.
 ///
 /// # Errors
-/// [`Error::Parse`](crate::Error::Parse) with line or facet; what [`weld`](super::weld) finds.
-pub(super) fn read(path: &Path) -> Result<PolygonMesh> {
+/// [`Error::Parse`](crate::Error::Parse) with line or facet.
+pub(super) fn read(path: &Path) -> Result<Soup> {
     let bytes = file::read(path)?;
     let facets = bytes.get(80..HEAD).map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]) as usize);
     let text_like = bytes.trim_ascii_start().starts_with(b"solid");
-    let mut mesh = match facets {
+    let mut soup = match facets {
         Some(n) if bytes.len() - HEAD >= n.saturating_mul(FACET) && (n > 0 || !text_like) => {
-            read_binary(path, &bytes[HEAD..], n)?
+            let unit = LengthUnit::stated(&String::from_utf8_lossy(&bytes[..80]));
+            Soup { unit, digits: Digits::Single, ..read_binary(path, &bytes[HEAD..], n)? }
         }
         // A text file has no zero bytes; a cut-off binary one surely does.
         _ if text_like && !bytes.contains(&0) => read_text(path, &bytes)?,
@@ -43,13 +44,13 @@ pub(super) fn read(path: &Path) -> Result<PolygonMesh> {
             ));
         }
     };
-    mesh.name = file::stem(path);
-    note_precision(&mut mesh);
-    weld::weld(path, mesh)
+    soup.first = 1;
+    note_precision(&mut soup);
+    Ok(soup)
 }
 
-fn read_binary(path: &Path, bytes: &[u8], facets: usize) -> Result<PolygonMesh> {
-    let mut mesh = PolygonMesh::default();
+fn read_binary(path: &Path, bytes: &[u8], facets: usize) -> Result<Soup> {
+    let mut soup = Soup::default();
     for (k, facet) in bytes.chunks_exact(FACET).take(facets).enumerate() {
         let number =
             |i: usize| f32::from_le_bytes([facet[i], facet[i + 1], facet[i + 2], facet[i + 3]]);
@@ -63,14 +64,14 @@ fn read_binary(path: &Path, bytes: &[u8], facets: usize) -> Result<PolygonMesh> 
                 "a coordinate is not finite",
             ));
         }
-        push_facet(&mut mesh, corners);
+        push_facet(&mut soup, corners);
     }
-    Ok(mesh)
+    Ok(soup)
 }
 
-fn read_text(path: &Path, bytes: &[u8]) -> Result<PolygonMesh> {
+fn read_text(path: &Path, bytes: &[u8]) -> Result<Soup> {
     let text = String::from_utf8_lossy(bytes);
-    let mut mesh = PolygonMesh::default();
+    let mut soup = Soup::default();
     let mut corners = Vec::new();
     for line in scan::lines(path, &text) {
         let mut words = line.text.split_ascii_whitespace();
@@ -80,7 +81,7 @@ fn read_text(path: &Path, bytes: &[u8]) -> Result<PolygonMesh> {
                 let Ok(facet) = <[DVec3; 3]>::try_from(std::mem::take(&mut corners)) else {
                     return Err(line.error("a facet must have three vertices"));
                 };
-                push_facet(&mut mesh, facet);
+                push_facet(&mut soup, facet);
             }
             None | Some("solid" | "facet" | "outer" | "endfacet" | "endsolid") => {}
             Some(word) => {
@@ -95,20 +96,20 @@ fn read_text(path: &Path, bytes: &[u8]) -> Result<PolygonMesh> {
             "the file ends within a facet; export it again",
         ));
     }
-    Ok(mesh)
+    Ok(soup)
 }
 
-fn push_facet(mesh: &mut PolygonMesh, corners: [DVec3; 3]) {
-    let first = mesh.points.len() as u32;
-    mesh.points.extend(corners);
-    mesh.faces.push(vec![first, first + 1, first + 2]);
+fn push_facet(soup: &mut Soup, corners: [DVec3; 3]) {
+    let first = soup.points.len() as u32;
+    soup.points.extend(corners);
+    soup.faces.push(vec![first, first + 1, first + 2]);
 }
 
-fn note_precision(mesh: &mut PolygonMesh) {
-    let (low, high) = weld::bounds(&mesh.points);
+fn note_precision(soup: &mut Soup) {
+    let (low, high) = weld::bounds(soup.points.iter().copied());
     let step = low.abs().max(high.abs()).max_element() * f64::from(f32::EPSILON);
     if step > COARSE * (high - low).max_element() {
-        mesh.notes.push(format!(
+        soup.notes.push(format!(
             "STL holds single precision: this far from the origin coordinates are rounded to {step:.2} m; \
              use OBJ, or move the model to the origin before export"
         ));

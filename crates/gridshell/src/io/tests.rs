@@ -232,6 +232,193 @@ fn repeated_degenerate_and_unused_parts_go_and_touching_fans_part() {
     }
 }
 
+#[test]
+fn units_are_taken_from_comments_and_from_the_designer() {
+    let text = "# units: mm\nv 0 0 0\nv 1000 0 0\nv 0 1000 0\nf 1 2 3\n";
+    let file = Scratch::new("unit.obj", text);
+    let mesh = file.read().expect("a mesh");
+    assert_eq!(mesh.points[1], DVec3::X);
+    assert!(mesh.notes.is_empty(), "{:?}", mesh.notes);
+    let opening = Opening { unit: Some(LengthUnit::Foot), ..Opening::default() };
+    let mesh = read_mesh_with(&file.0, &opening).expect("a mesh");
+    assert_eq!(mesh.points[1].x, 1000.0 * 0.3048);
+    assert!(mesh.notes.iter().any(|n| n.contains("states mm")), "{:?}", mesh.notes);
+    let glb = Scratch::new("unit.glb", "");
+    assert!(matches!(load(&glb.0, &opening), Err(Error::Option(_))));
+}
+
+#[test]
+fn small_pieces_far_away_and_stray_lines_are_left_out_with_a_note() {
+    let text = "v 500000 4000000 0\nv 500010 4000000 0\nv 500010 4000010 0\nv 500000 4000010 0\n\
+                f 1 2 3 4\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 5 6 7\nl 1 6\nl 1 2 3\np 7\n";
+    let mesh = Scratch::new("stray.obj", text).read().expect("a mesh");
+    assert_eq!((mesh.points.len(), mesh.faces.len()), (4, 1));
+    for told in ["1 small pieces far", "1 lines", "1 points"] {
+        assert!(mesh.notes.iter().any(|n| n.contains(told)), "{told}: {:?}", mesh.notes);
+    }
+}
+
+#[test]
+fn sliver_on_an_edge_of_two_faces_is_cut_off() {
+    let text = "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nv 5 5 0.001\nf 1 2 3\nf 1 3 4\nf 1 3 5\n";
+    let mesh = Scratch::new("sliver.obj", text).read().expect("a mesh");
+    assert_eq!(mesh.faces.len(), 2);
+    assert!(mesh.notes.iter().any(|n| n.contains("cut off 1")), "{:?}", mesh.notes);
+}
+
+#[test]
+fn crowded_edge_is_named_with_its_faces() {
+    let book = "OFF\n5 3 0\n0 0 0\n0 1 0\n1 0.5 0\n-1 0.5 0\n0 0.5 1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n";
+    let message = Scratch::new("book.off", book).refused();
+    assert!(message.contains("3 faces (0, 1, 2)"), "{message}");
+}
+
+#[test]
+fn coordinates_beyond_all_bounds_are_named() {
+    let text = "v 0 0 0\nv 1e15 0 0\nv 0 1 0\nf 1 2 3\n";
+    let message = Scratch::new("beyond.obj", text).refused();
+    assert!(message.contains("face 1 uses vertex 2"), "{message}");
+    // What no face uses does no harm.
+    let text = "v 0 0 0\nv 1e300 0 0\nv 0 1 0\nv 1 0 0\nf 1 3 4\n";
+    assert_eq!(Scratch::new("unused.obj", text).read().expect("a mesh").points.len(), 3);
+}
+
+#[test]
+fn faces_without_any_area_are_refused() {
+    let text = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 5 0 0\nf 1 2 3\nf 2 4 3\n";
+    assert!(Scratch::new("flat.obj", text).refused().contains("no area"));
+}
+
+#[test]
+fn face_cut_open_to_its_hole_keeps_its_area() {
+    // A square ring as one polygon: round the outside, in along a cut, round the hole, out again.
+    let text = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 3 1 0\nv 3 3 0\nv 1 3 0\n\
+                f 1 2 3 4 1 5 8 7 6 5\n";
+    let mesh = Scratch::new("slit.obj", text).read().expect("a mesh");
+    let sampling = Sampling { max_edge: 9.0, chord_error: 0.1, corner_angle: 0.5 };
+    let surface = mesh.surface(&sampling).expect("a surface");
+    assert!((surface.area - 12.0).abs() < 1e-12, "{}", surface.area);
+    assert_eq!(surface.loops.len(), 2);
+}
+
+#[test]
+fn cone_of_very_many_faces_round_one_vertex_takes_no_time() {
+    let mut text = String::from("v 0 0 1\n");
+    let n = 60_000;
+    for k in 0..n {
+        let t = f64::from(k) / f64::from(n);
+        let _ = writeln!(text, "v {} {} 0", t * 4.0 - 2.0, t * t);
+    }
+    for k in 2..=n {
+        let _ = writeln!(text, "f 1 {} {k}", k + 1);
+    }
+    let start = std::time::Instant::now();
+    let mesh = Scratch::new("cone.obj", text).read().expect("a mesh");
+    assert_eq!(mesh.faces.len(), 59_999);
+    assert!(start.elapsed().as_secs() < 5);
+}
+
+/// A COMPAS mesh of two quads, the second marked as an opening.
+const FORM: &str = r#"{"vertex": {"a": {"x": 0, "y": 0}, "1": {"x": 1.5, "y": 0, "z": 0.25}, "2": {"x": 1, "y": 1},
+  "3": {"x": 0, "y": 1}, "4": {"x": 2, "y": 0}, "5": {"x": 2, "y": 1}},
+  "face": {"0": ["a", 1, 2, 3], "7": [1, 4, "5", 2]}, "facedata": {"7": {"_is_loaded": false}}, "dva": {"z": 3}}"#;
+
+#[test]
+fn compas_meshes_old_and_new_are_read_and_openings_left_out() {
+    for (name, text) in [
+        ("top.json", FORM.to_owned()),
+        ("new.json", format!("{{\"dtype\": \"compas.datastructures/Mesh\", \"data\": {FORM}}}")),
+        ("old.json", format!("{{\"dtype\": \"compas.datastructures/Mesh\", \"value\": {FORM}}}")),
+    ] {
+        let mesh = Scratch::new(name, text).read().expect("a mesh");
+        assert_eq!((mesh.points.len(), mesh.faces.len()), (4, 1), "{name}");
+        assert_eq!(mesh.points[1], DVec3::new(1.5, 0.0, 0.25));
+        assert_eq!(mesh.points[0].z, 3.0, "{name}: the usual z");
+        assert!(mesh.notes.iter().any(|n| n.contains("1 faces marked as not loaded")));
+    }
+}
+
+#[test]
+fn of_a_compas_session_the_thrust_diagram_is_taken() {
+    let flat = FORM.replace("0.25", "0").replace("\"z\": 3", "\"z\": 0");
+    let session = format!(
+        "{{\"form\": {{\"dtype\": \"x/FormDiagram\", \"data\": {flat}}}, \"items\": [1, {{\"thrust\": {FORM}}}]}}"
+    );
+    let mesh = Scratch::new("session.json", session).read().expect("a mesh");
+    assert_eq!(mesh.points[0].z, 3.0);
+    assert!(mesh.notes.iter().any(|n| n.contains("items.1.thrust")), "{:?}", mesh.notes);
+}
+
+#[test]
+fn damaged_compas_files_name_their_place() {
+    for (text, told) in [
+        ("{\"vertex\": {}}", "no COMPAS mesh"),
+        ("{\n\"vertex\": [}", "line 2"),
+        (&FORM.replace("1.5", "null"), "vertex 1: its x"),
+        (&FORM.replace("\"a\", 1, 2", "\"a\", 1, 99"), "face 0: vertex 99"),
+        (&FORM.replace("[\"a\", 1, 2, 3]", "5"), "face 0: it is no list"),
+    ] {
+        let message = Scratch::new("damaged.json", text).refused();
+        assert!(message.contains(told), "{told}: {message}");
+    }
+}
+
+/// A text glTF of one triangle (0 0 0, 1 0 0, 0 2 0), with these nodes.
+fn gltf(nodes: &str) -> String {
+    let bytes: Vec<u8> = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0]
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    let data = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, bytes);
+    format!(
+        r#"{{"nodes": [{nodes}], "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}],
+        "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}}],
+        "bufferViews": [{{"buffer": 0, "byteLength": 36}}],
+        "buffers": [{{"byteLength": 36, "uri": "data:application/octet-stream;base64,{data}"}}]}}"#
+    )
+}
+
+#[test]
+fn gltf_is_placed_by_its_nodes_with_z_up() {
+    let nodes = r#"{"translation": [500000, 7, -4000000], "children": [1]}, {"mesh": 0, "scale": [1, 1, -1]}"#;
+    let mesh = Scratch::new("placed.gltf", gltf(nodes)).read().expect("a mesh");
+    // Up is y there: (x, y, z) is (x, -z, y) here.
+    let at = DVec3::new(500000.0, 4000000.0, 7.0);
+    assert_eq!(mesh.points, [at, at + DVec3::X, at + DVec3::new(0.0, 0.0, 2.0)]);
+    // A mirror image turns its faces: the normal was z there, so -y here, and is y now.
+    let [a, b, c] = [0, 1, 2].map(|k| mesh.points[mesh.faces[0][k] as usize]);
+    assert!((b - a).cross(c - a).y > 0.0);
+    assert!(mesh.notes.is_empty(), "{:?}", mesh.notes);
+}
+
+#[test]
+fn damaged_gltf_names_its_place() {
+    let whole = gltf("{\"mesh\": 0}");
+    for (text, told) in [
+        (
+            whole.replace("\"count\": 3", "\"count\": 4000000000"),
+            "accessor 0: its 4000000000 items",
+        ),
+        (
+            whole.replace("\"bufferView\": 0", "\"bufferView\": 9"),
+            "accessor 0: it has no buffer view",
+        ),
+        (whole.replace("5126", "5120"), "faces"),
+        (whole.replace("\"mesh\": 0", "\"mesh\": 3"), "mesh 3 is used"),
+        (
+            gltf("{\"children\": [1]}, {\"children\": [0]}, {\"children\": [0, 0]}"),
+            "node 0: it is used twice",
+        ),
+        (whole.replace("data:", "../secret"), "not a file in this folder"),
+        (whole.replace("base64,AAA", "base64,A!A"), "buffer 0: its base64"),
+        ("glTF".to_owned(), "byte 4"),
+        (String::new(), "line 1"),
+    ] {
+        let message = Scratch::new("damaged.gltf", text).refused();
+        assert!(message.contains(told), "{told}: {message}");
+    }
+}
+
 proptest::proptest! {
     /// Whatever the faces, the door lets through only what makes a manifold once it is in triangles.
     #[test]

@@ -1,249 +1,302 @@
-//! The door every mesh comes through: from a soup of faces to an oriented manifold.
+//! The door every mesh comes through: from a soup of faces to an oriented manifold in metres.
 //!
-//! In turn: merge vertices at the same place, drop degenerate and repeated faces, refuse edges with more
-//! than two faces, turn neighbours to agree, choose the outside, part pieces that touch in one vertex, and
-//! drop unused vertices. What was done is told in the notes.
+//! In turn: check the coordinates, merge vertices at the same place, leave out small pieces far away, drop
+//! degenerate and repeated faces, cut off slivers on edges with more than two faces and refuse the others, turn
+//! neighbours to agree, choose the outside, part pieces that touch in one vertex, and drop unused vertices. What
+//! was done is told in the notes.
 
+use super::soup::Soup;
+use super::{LengthUnit, far, file, fins, merge, turn};
 use crate::error::{Error, Result};
-use crate::surface::PolygonMesh;
+use crate::surface::{PolygonMesh, Source, ear};
 use glam::DVec3;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::path::Path;
 
-/// Vertices closer than this share of the model's box are the same.
-const SAME: f64 = 1e-9;
-/// An open piece has a top side where its mean normal leans this far from the horizon (a sine).
-const LEANS: f64 = 0.05;
+/// Farther from the origin, metres, nothing is built, and coordinates have lost the digits for a grid.
+const FARTHEST: f64 = 1e9;
+/// A surface has more area than this share of its length squared.
+const NO_AREA: f64 = 1e-9;
+/// Faces with more corners are told where nearly all others have up to four: they often stand for openings.
+const MANY_SIDES: usize = 8;
+/// Faces with more corners are refused: nothing that was modelled has them.
+const MOST_SIDES: usize = 10_000;
+/// A face that is cut open to a hole in it has this many corners or more: two triangles and the cut.
+const LEAST_SLIT: usize = 6;
 /// A face's corner, given by face and place, with the direction of its edge.
-type Use = (u32, u32, u32, bool);
+pub(super) type Use = (u32, u32, u32, bool);
 
-/// The mesh as a manifold, its faces oriented alike.
+/// A mesh while it is put right. Metres.
+pub(super) struct Work {
+    pub points: Vec<DVec3>,
+    pub faces: Vec<Vec<u32>>,
+    /// The place of each face in the file.
+    pub origin: Vec<u32>,
+    /// Number of the first face in the file.
+    pub first: usize,
+    pub notes: Vec<String>,
+    /// Vertices that were merged into others.
+    pub merged: usize,
+}
+
+/// The soup as a manifold, its faces oriented alike. The `unit` wanted goes before the one stated.
 ///
 /// # Errors
-/// [`Error::Surface`] where there is no face, an edge has more than two, or the surface has one side only.
-pub(super) fn weld(path: &Path, mut mesh: PolygonMesh) -> Result<PolygonMesh> {
-    mesh.notes.push("the file states no unit: metres are assumed".into());
-    merge_vertices(&mut mesh);
-    drop_degenerate(&mut mesh);
-    if mesh.faces.is_empty() {
+/// [`Error::Surface`] where there is no face, a coordinate out of bounds, an edge of more than two faces, or the
+/// surface has one side only.
+pub(super) fn weld(path: &Path, soup: Soup, unit: Option<LengthUnit>) -> Result<PolygonMesh> {
+    let digits = soup.digits;
+    let mut work = Work::new(path, soup, unit)?;
+    merge::identical(&mut work);
+    far::drop_far(&mut work);
+    merge::close(&mut work, digits);
+    let merged = work.merged;
+    work.note_count(merged, "merged", "duplicate vertices");
+    drop_degenerate(&mut work);
+    if work.faces.is_empty() {
         return Err(Error::Surface(format!("{}: the file holds no faces", path.display())));
     }
-    let neighbors = neighbors(path, &mesh)?;
-    orient(path, &mut mesh, &neighbors)?;
-    part_at_vertices(&mut mesh);
-    drop_unused(&mut mesh);
-    Ok(mesh)
+    check_area(path, &work)?;
+    fins::cut(path, &mut work)?;
+    let neighbors = neighbors(&work.faces);
+    turn::alike(path, &mut work, &neighbors)?;
+    part_at_vertices(&mut work);
+    drop_unused(&mut work);
+    note_many_sided(&mut work);
+    let Work { points, faces, notes, .. } = work;
+    Ok(PolygonMesh { name: file::stem(path), points, faces, notes, source: Source::default() })
+}
+
+impl Work {
+    fn new(path: &Path, soup: Soup, wanted: Option<LengthUnit>) -> Result<Work> {
+        let Soup { mut points, faces, mut notes, unit, first, .. } = soup;
+        notes.extend(unit_note(unit, wanted));
+        let metres = wanted.or(unit).map_or(1.0, LengthUnit::metres);
+        if metres != 1.0 {
+            for p in &mut points {
+                *p *= metres;
+            }
+        }
+        let origin = (0..faces.len() as u32).collect();
+        let work = Work { points, faces, origin, first, notes, merged: 0 };
+        work.check(path)?;
+        Ok(work)
+    }
+
+    /// Refuse what is out of all bounds.
+    fn check(&self, path: &Path) -> Result<()> {
+        for (face, f) in self.faces.iter().zip(0..) {
+            let outside = face.iter().find(|&&v| {
+                let p = self.points[v as usize];
+                !p.is_finite() || p.abs().max_element() > FARTHEST
+            });
+            if let Some(&v) = outside {
+                let p = self.points[v as usize];
+                return Err(Error::Surface(format!(
+                    "{}: face {} uses vertex {} at ({:e}, {:e}, {:e}) m, more than {FARTHEST:e} m from the \
+                     origin; correct it, or state the unit",
+                    path.display(),
+                    self.number(f),
+                    v as usize + self.first,
+                    p.x,
+                    p.y,
+                    p.z
+                )));
+            }
+            if face.len() > MOST_SIDES {
+                return Err(Error::Surface(format!(
+                    "{}: face {} has {} corners, more than {MOST_SIDES}; split it",
+                    path.display(),
+                    self.number(f),
+                    face.len()
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// The number of a face in the file, as the format counts.
+    pub fn number(&self, face: u32) -> String {
+        (self.origin[face as usize] as usize + self.first).to_string()
+    }
+
+    /// Which vertices a face uses.
+    pub fn used(&self) -> Vec<bool> {
+        let mut used = vec![false; self.points.len()];
+        for &v in self.faces.iter().flatten() {
+            used[v as usize] = true;
+        }
+        used
+    }
+
+    /// Area of a face that is nearly plane.
+    pub fn area(&self, face: &[u32]) -> f64 {
+        let corner = |k: usize| self.points[face[k] as usize] - self.points[face[0] as usize];
+        let sum: DVec3 = (2..face.len()).map(|k| corner(k - 1).cross(corner(k))).sum();
+        sum.length() / 2.0
+    }
+
+    /// Drop the faces that are `gone`.
+    pub fn drop_faces(&mut self, gone: &[bool]) {
+        let mut f = 0;
+        self.faces.retain(|_| {
+            f += 1;
+            !gone[f - 1]
+        });
+        f = 0;
+        self.origin.retain(|_| {
+            f += 1;
+            !gone[f - 1]
+        });
+    }
+
+    pub fn note_count(&mut self, count: usize, verb: &str, what: &str) {
+        if count > 0 {
+            self.notes.push(format!("{verb} {count} {what}"));
+        }
+    }
+
+    /// As [`Work::drop_faces`], with a note that tells the first.
+    fn drop_noted(&mut self, gone: &[bool], what: &str) {
+        let Some(first) = gone.iter().position(|&g| g) else { return };
+        let count = gone.iter().filter(|&&g| g).count();
+        let number = self.number(first as u32);
+        self.notes.push(format!("dropped {count} {what}, the first is face {number}"));
+        self.drop_faces(gone);
+    }
+}
+
+/// Refuse faces that all together have no area to speak of.
+fn check_area(path: &Path, work: &Work) -> Result<()> {
+    let area: f64 = work.faces.iter().map(|face| work.area(face)).sum();
+    let corners = work.faces.iter().flatten().map(|&v| work.points[v as usize]);
+    let (low, high) = bounds(corners);
+    if area > NO_AREA * (high - low).length_squared() {
+        return Ok(());
+    }
+    let count = work.faces.len();
+    let message = format!("{}: the {count} faces have no area: they lie on a line", path.display());
+    Err(Error::Surface(message))
+}
+
+fn unit_note(stated: Option<LengthUnit>, wanted: Option<LengthUnit>) -> Option<String> {
+    match (stated, wanted) {
+        (None, None) => Some("the file states no unit: metres are assumed".into()),
+        (Some(s), Some(w)) if s != w => {
+            Some(format!("the file states {}, but {} was asked for", s.name(), w.name()))
+        }
+        _ => None,
+    }
 }
 
 /// Lowest and highest coordinates; zero when there are no points.
-pub(super) fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
-    let Some(&first) = points.first() else { return (DVec3::ZERO, DVec3::ZERO) };
-    points.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p)))
-}
-
-/// Replace every vertex by the first one at its place.
-fn merge_vertices(mesh: &mut PolygonMesh) {
-    let (low, high) = bounds(&mesh.points);
-    let tolerance = SAME * (high - low).length();
-    // Cells are much wider than the tolerance, so that most points touch one cell only.
-    let cell = 64.0 * tolerance.max(f64::MIN_POSITIVE);
-    let key = |p: DVec3| ((p - low) / cell).floor().to_array().map(|c| c as i64);
-    let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
-    let mut keep: Vec<u32> = Vec::with_capacity(mesh.points.len());
-    for (i, &p) in mesh.points.iter().enumerate() {
-        let [from, to] = [key(p - tolerance), key(p + tolerance)];
-        let mut same = None;
-        for x in from[0]..=to[0] {
-            for y in from[1]..=to[1] {
-                for z in from[2]..=to[2] {
-                    let near = cells.get(&[x, y, z]).into_iter().flatten().copied();
-                    same = near
-                        .filter(|&j| mesh.points[j as usize].distance(p) <= tolerance)
-                        .chain(same)
-                        .min();
-                }
-            }
-        }
-        if same.is_none() {
-            cells.entry(key(p)).or_default().push(i as u32);
-        }
-        keep.push(same.unwrap_or(i as u32));
-    }
-    let merged = keep.iter().enumerate().filter(|&(i, &k)| k != i as u32).count();
-    if merged > 0 {
-        mesh.notes.push(format!("merged {merged} duplicate vertices"));
-    }
-    for v in mesh.faces.iter_mut().flatten() {
-        *v = keep[*v as usize];
-    }
+pub(super) fn bounds(mut points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    let Some(first) = points.next() else { return (DVec3::ZERO, DVec3::ZERO) };
+    points.fold((first, first), |(low, high), p| (low.min(p), high.max(p)))
 }
 
 /// Drop corners that repeat the one before, faces with fewer than three corners or a corner twice, and
-/// faces over the same corners as an earlier one.
-fn drop_degenerate(mesh: &mut PolygonMesh) {
-    let before = mesh.faces.len();
-    mesh.faces.retain_mut(|face| {
+/// faces over the same corners as an earlier one. Faces that are cut open to a hole in them, and so visit corners
+/// twice, are split into triangles first.
+fn drop_degenerate(work: &mut Work) {
+    let mut split = Vec::new();
+    for (f, face) in work.faces.iter_mut().enumerate() {
         face.dedup();
         while face.len() > 1 && face.first() == face.last() {
             face.pop();
         }
-        let mut sorted = face.clone();
-        sorted.sort_unstable();
-        sorted.dedup();
-        sorted.len() == face.len() && face.len() >= 3
-    });
-    note_count(mesh, before - mesh.faces.len(), "dropped", "degenerate faces");
-    let before = mesh.faces.len();
-    let mut seen: HashSet<Vec<u32>> = HashSet::new();
-    mesh.faces.retain(|face| {
-        let mut sorted = face.clone();
-        sorted.sort_unstable();
-        seen.insert(sorted)
-    });
-    note_count(mesh, before - mesh.faces.len(), "dropped", "repeated faces");
-}
-
-fn note_count(mesh: &mut PolygonMesh, count: usize, verb: &str, what: &str) {
-    if count > 0 {
-        mesh.notes.push(format!("{verb} {count} {what}"));
+        if face.len() >= LEAST_SLIT && repeats(face) {
+            let mut triangles = Vec::new();
+            ear::split(&work.points, face, &mut triangles);
+            triangles.retain(|t| !repeats(t));
+            split.extend(triangles.into_iter().map(|t| (t.to_vec(), work.origin[f])));
+            face.clear();
+        }
     }
+    let slit = work.faces.iter().filter(|f| f.is_empty() && !split.is_empty()).count();
+    if !split.is_empty() {
+        let gone: Vec<bool> = work.faces.iter().map(Vec::is_empty).collect();
+        work.drop_faces(&gone);
+        for (face, origin) in split {
+            work.faces.push(face);
+            work.origin.push(origin);
+        }
+        work.note_count(slit, "split", "faces that visit a corner twice");
+    }
+    let gone: Vec<bool> = work.faces.iter().map(|f| f.len() < 3 || repeats(f)).collect();
+    work.drop_noted(&gone, "degenerate faces");
+    let mut seen: HashSet<Vec<u32>> = HashSet::with_capacity(work.faces.len());
+    let gone: Vec<bool> = (work.faces.iter())
+        .map(|face| {
+            let mut sorted = face.clone();
+            sorted.sort_unstable();
+            !seen.insert(sorted)
+        })
+        .collect();
+    drop(seen);
+    work.drop_noted(&gone, "repeated faces");
 }
 
-/// For each face, its neighbours, and whether the two run along their common edge the same way: then they
-/// disagree on the outside.
-fn neighbors(path: &Path, mesh: &PolygonMesh) -> Result<Vec<Vec<(u32, bool)>>> {
-    let mut uses: Vec<Use> = Vec::new();
-    for (f, face) in mesh.faces.iter().enumerate() {
+/// Whether a corner comes twice.
+fn repeats(face: &[u32]) -> bool {
+    let mut sorted = face.to_vec();
+    sorted.sort_unstable();
+    sorted.windows(2).any(|w| w[0] == w[1])
+}
+
+/// Tell the faces with very many corners where they are few: in form diagrams they stand for openings.
+fn note_many_sided(work: &mut Work) {
+    let many: Vec<u32> = (work.faces.iter().zip(0..))
+        .filter(|(face, _)| face.len() > MANY_SIDES)
+        .map(|(_, f)| f)
+        .collect();
+    if many.is_empty() || many.len() * 10 > work.faces.len() {
+        return;
+    }
+    let numbers: Vec<String> = many.iter().take(5).map(|&f| work.number(f)).collect();
+    let dots = if many.len() > 5 { ", ..." } else { "" };
+    work.notes.push(format!(
+        "{} faces have more than {MANY_SIDES} corners ({}{dots}): if they stand for openings, delete them",
+        many.len(),
+        numbers.join(", ")
+    ));
+}
+
+/// The edges of all faces, those of the same place one after the other.
+pub(super) fn uses(faces: &[Vec<u32>]) -> Vec<Use> {
+    let mut uses: Vec<Use> = Vec::with_capacity(faces.iter().map(Vec::len).sum());
+    for (f, face) in faces.iter().enumerate() {
         for k in 0..face.len() {
             let (a, b) = (face[k], face[(k + 1) % face.len()]);
             uses.push((a.min(b), a.max(b), f as u32, a < b));
         }
     }
     uses.sort_unstable();
-    let mut neighbors = vec![Vec::new(); mesh.faces.len()];
-    for edge in uses.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-        match *edge {
-            [(_, _, f, up), (_, _, g, other_up)] => {
-                neighbors[f as usize].push((g, up == other_up));
-                neighbors[g as usize].push((f, up == other_up));
-            }
-            [(a, b, ..), _, _, ..] => {
-                return Err(Error::Surface(format!(
-                    "{}: {} faces meet in the edge from {} to {}; a surface has at most two there: remove the \
-                     extra ones, or split the model",
-                    path.display(),
-                    edge.len(),
-                    place(mesh.points[a as usize]),
-                    place(mesh.points[b as usize]),
-                )));
-            }
-            _ => {}
-        }
-    }
-    Ok(neighbors)
+    uses
 }
 
-fn place(p: DVec3) -> String {
+/// For each face, its neighbours, and whether the two run along their common edge the same way: then they
+/// disagree on the outside.
+fn neighbors(faces: &[Vec<u32>]) -> Vec<Vec<(u32, bool)>> {
+    let mut neighbors = vec![Vec::new(); faces.len()];
+    for edge in uses(faces).chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        if let [(_, _, f, up), (_, _, g, other_up)] = *edge {
+            neighbors[f as usize].push((g, up == other_up));
+            neighbors[g as usize].push((f, up == other_up));
+        }
+    }
+    neighbors
+}
+
+pub(super) fn place(p: DVec3) -> String {
     format!("({}, {}, {})", p.x, p.y, p.z)
 }
 
-/// Turn faces so that neighbours agree, piece by piece.
-fn orient(path: &Path, mesh: &mut PolygonMesh, neighbors: &[Vec<(u32, bool)>]) -> Result<()> {
-    let mut flip: Vec<Option<bool>> = vec![None; mesh.faces.len()];
-    let (mut pieces, mut turned) = (0_usize, 0_usize);
-    for seed in 0..mesh.faces.len() {
-        if flip[seed].is_some() {
-            continue;
-        }
-        pieces += 1;
-        let piece = flood(path, mesh, neighbors, seed as u32, &mut flip)?;
-        let flipped = |f: u32| flip[f as usize] == Some(true);
-        let minority = piece.iter().filter(|&&f| flipped(f)).count();
-        let mut outside = 2 * minority > piece.len();
-        turned += minority.min(piece.len() - minority);
-        let closed =
-            piece.iter().all(|&f| neighbors[f as usize].len() == mesh.faces[f as usize].len());
-        if wrong_side(mesh, &piece, closed, |f| flipped(f) != outside) {
-            outside = !outside;
-        }
-        for &f in &piece {
-            if flipped(f) != outside {
-                mesh.faces[f as usize].reverse();
-            }
-        }
-    }
-    note_count(mesh, turned, "turned", "faces to agree with their neighbours");
-    if pieces > 1 {
-        mesh.notes.push(format!("the mesh has {pieces} separate pieces"));
-    }
-    Ok(())
-}
-
-/// The piece of the mesh that `seed` belongs to; `flip` says for each face whether it must be turned to
-/// agree with the seed.
-fn flood(
-    path: &Path,
-    mesh: &PolygonMesh,
-    neighbors: &[Vec<(u32, bool)>],
-    seed: u32,
-    flip: &mut [Option<bool>],
-) -> Result<Vec<u32>> {
-    flip[seed as usize] = Some(false);
-    let mut piece = vec![seed];
-    let mut next = 0;
-    while let Some(&f) = piece.get(next) {
-        next += 1;
-        let turned = flip[f as usize] == Some(true);
-        for &(g, disagree) in &neighbors[f as usize] {
-            match flip[g as usize] {
-                None => {
-                    flip[g as usize] = Some(turned != disagree);
-                    piece.push(g);
-                }
-                Some(known) if known != (turned != disagree) => {
-                    let corner = mesh.points[mesh.faces[g as usize][0] as usize];
-                    return Err(Error::Surface(format!(
-                        "{}: the surface near {} has one side only, like a Möbius strip; cut it open",
-                        path.display(),
-                        place(corner)
-                    )));
-                }
-                Some(_) => {}
-            }
-        }
-    }
-    Ok(piece)
-}
-
-/// Whether a piece, oriented as it stands but for the faces `turned`, has its outside inside (where it is
-/// closed) or below (where it is open and leans from the vertical).
-fn wrong_side(
-    mesh: &PolygonMesh,
-    piece: &[u32],
-    closed: bool,
-    turned: impl Fn(u32) -> bool,
-) -> bool {
-    let origin = mesh.points[mesh.faces[piece[0] as usize][0] as usize];
-    let (mut volume, mut normal, mut area) = (0.0, DVec3::ZERO, 0.0);
-    for &f in piece {
-        let face = &mesh.faces[f as usize];
-        let sign = if turned(f) { -1.0 } else { 1.0 };
-        let corner = |k: usize| mesh.points[face[k] as usize] - origin;
-        for k in 2..face.len() {
-            let n = (corner(k - 1) - corner(0)).cross(corner(k) - corner(0)) * sign;
-            volume += corner(0).dot(n);
-            normal += n;
-            area += n.length();
-        }
-    }
-    if closed { volume < 0.0 } else { normal.z < -LEANS * area }
-}
-
 /// Give each fan of faces round a vertex its own vertex, so that no two touch in a vertex alone.
-fn part_at_vertices(mesh: &mut PolygonMesh) {
+fn part_at_vertices(work: &mut Work) {
     // The steps round each vertex: in this face, from this next corner to that previous one.
-    let mut steps: Vec<Vec<(u32, u32, u32)>> = vec![Vec::new(); mesh.points.len()];
-    for (f, face) in mesh.faces.iter().enumerate() {
+    let mut steps: Vec<Vec<(u32, u32, u32)>> = vec![Vec::new(); work.points.len()];
+    for (f, face) in work.faces.iter().enumerate() {
         let n = face.len();
         for k in 0..n {
             steps[face[k] as usize].push((f as u32, face[(k + 1) % n], face[(k + n - 1) % n]));
@@ -251,52 +304,65 @@ fn part_at_vertices(mesh: &mut PolygonMesh) {
     }
     let mut parted = 0;
     for (v, steps) in steps.into_iter().enumerate() {
-        for fan in fans(steps).into_iter().skip(1) {
-            let twin = mesh.points.len() as u32;
-            mesh.points.push(mesh.points[v]);
+        for fan in fans(&steps).into_iter().skip(1) {
+            let twin = work.points.len() as u32;
+            work.points.push(work.points[v]);
             for f in fan {
-                for c in mesh.faces[f as usize].iter_mut().filter(|c| **c == v as u32) {
+                for c in work.faces[f as usize].iter_mut().filter(|c| **c == v as u32) {
                     *c = twin;
                 }
             }
             parted += 1;
         }
     }
-    note_count(mesh, parted, "parted", "places where the surface touched itself in one vertex");
+    work.note_count(parted, "parted", "places where the surface touched itself in one vertex");
 }
 
-/// The faces round a vertex in fans whose faces share edges.
-fn fans(mut left: Vec<(u32, u32, u32)>) -> Vec<Vec<u32>> {
+/// The faces round a vertex in fans whose faces share edges: the next corner of one is the previous of another.
+fn fans(steps: &[(u32, u32, u32)]) -> Vec<Vec<u32>> {
+    let mut by_next: Vec<(u32, usize)> = steps.iter().enumerate().map(|(i, s)| (s.1, i)).collect();
+    let mut by_previous: Vec<(u32, usize)> =
+        steps.iter().enumerate().map(|(i, s)| (s.2, i)).collect();
+    by_next.sort_unstable();
+    by_previous.sort_unstable();
+    let at = |list: &[(u32, usize)], v: u32| -> Vec<usize> {
+        let from = list.partition_point(|e| e.0 < v);
+        list[from..].iter().take_while(|e| e.0 == v).map(|e| e.1).collect()
+    };
+    let mut seen = vec![false; steps.len()];
     let mut fans = Vec::new();
-    while !left.is_empty() {
-        let first = left.remove(0);
-        let mut fan = vec![first];
-        let mut next = 0;
-        while let Some(&(_, a, b)) = fan.get(next) {
-            next += 1;
-            while let Some(i) = left.iter().position(|s| s.1 == b || s.2 == a) {
-                fan.push(left.remove(i));
+    for first in 0..steps.len() {
+        if seen[first] {
+            continue;
+        }
+        seen[first] = true;
+        let mut fan = Vec::new();
+        let mut open = vec![first];
+        while let Some(i) = open.pop() {
+            fan.push(steps[i].0);
+            for j in at(&by_next, steps[i].2).into_iter().chain(at(&by_previous, steps[i].1)) {
+                if !seen[j] {
+                    seen[j] = true;
+                    open.push(j);
+                }
             }
         }
-        fans.push(fan.into_iter().map(|s| s.0).collect());
+        fans.push(fan);
     }
     fans
 }
 
 /// Keep the vertices that faces use, in their order.
-fn drop_unused(mesh: &mut PolygonMesh) {
-    let mut used = vec![false; mesh.points.len()];
-    for &v in mesh.faces.iter().flatten() {
-        used[v as usize] = true;
-    }
-    let mut new = vec![0; mesh.points.len()];
+fn drop_unused(work: &mut Work) {
+    let used = work.used();
+    let mut new = vec![0; work.points.len()];
     let mut kept = Vec::new();
-    for v in (0..mesh.points.len()).filter(|&v| used[v]) {
+    for v in (0..work.points.len()).filter(|&v| used[v]) {
         new[v] = kept.len() as u32;
-        kept.push(mesh.points[v]);
+        kept.push(work.points[v]);
     }
-    mesh.points = kept;
-    for v in mesh.faces.iter_mut().flatten() {
+    work.points = kept;
+    for v in work.faces.iter_mut().flatten() {
         *v = new[*v as usize];
     }
 }

@@ -2,7 +2,7 @@
 //! edge is flipped; on the boundary, where the corner then takes the edge's place, the triangle goes.
 
 use glam::DVec3;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A triangle is flat when its height is below this share of its longest edge.
 const FLAT: f64 = 1e-9;
@@ -51,7 +51,7 @@ fn round(points: &[DVec3], triangles: &mut Vec<[u32; 3]>, flat: &[usize]) -> boo
     }
     let mut touched = vec![false; triangles.len()];
     let mut gone = vec![false; triangles.len()];
-    let mut joined = Vec::new();
+    let mut joined: HashSet<(u32, u32)> = HashSet::new();
     for &t in flat {
         let [a, b, c] = longest_first(points, triangles[t]);
         let Some(&other) = left_of.get(&(b, a)) else {
@@ -72,7 +72,7 @@ fn round(points: &[DVec3], triangles: &mut Vec<[u32; 3]>, flat: &[usize]) -> boo
         if left_of.contains_key(&(c, d)) || left_of.contains_key(&(d, c)) || joined.contains(&new) {
             continue;
         }
-        joined.push(new);
+        joined.insert(new);
         (touched[t], touched[other]) = (true, true);
         (triangles[t], triangles[other]) = ([a, d, c], [d, b, c]);
     }

@@ -1,17 +1,26 @@
-//! Splitting a polygon in space into triangles over its own corners: a quad along a diagonal, more corners
-//! by clipping ears in the polygon's mean plane.
+//! Splitting a polygon in space into triangles over its own corners: a quad along a diagonal, more corners in the
+//! polygon's mean plane, by clipping ears where it touches or crosses itself there.
 
+use super::plan;
 use glam::{DVec2, DVec3};
 
 /// An ear is flat, and clipped last, below this share of the polygon's area: rounding decides its sign.
 const FLAT: f64 = 1e-12;
+/// Corners looked at in the search for ears of one polygon; beyond, any open corner must do.
+const MOST_LOOKS: usize = 50_000_000;
 
 /// Split the face with these corners and add its triangles to `out`; they keep its orientation.
 pub fn split(points: &[DVec3], face: &[u32], out: &mut Vec<[u32; 3]>) {
     match *face {
         [a, b, c] => out.push([a, b, c]),
         [a, b, c, d] => out.extend(split_quad(points, [a, b, c, d])),
-        _ => clip_ears(points, face, out),
+        _ => {
+            let plan = flatten(points, face);
+            match plan::split(&plan) {
+                Some(triangles) => out.extend(triangles.iter().map(|t| t.map(|k| face[k]))),
+                None => clip_ears(&plan, face, out),
+            }
+        }
     }
 }
 
@@ -32,15 +41,18 @@ fn split_quad(points: &[DVec3], [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     if !first.iter().all(over) && second.iter().all(over) { second } else { first }
 }
 
-fn clip_ears(points: &[DVec3], face: &[u32], out: &mut Vec<[u32; 3]>) {
-    let plan = flatten(points, face);
+fn clip_ears(plan: &[DVec2], face: &[u32], out: &mut Vec<[u32; 3]>) {
+    let mut looks = 0;
     let mut left: Vec<usize> = (0..face.len()).collect();
     let mut at = 0;
     while left.len() > 3 {
         let n = left.len();
-        let ear = (0..n).map(|k| (at + k) % n).find(|&k| is_ear(&plan, &left, k));
+        let ear = (0..n).map(|k| (at + k) % n).find(|&k| {
+            looks += n;
+            looks <= MOST_LOOKS && is_ear(plan, &left, k)
+        });
         // A polygon that crosses itself may have none: the most open corner must do.
-        let k = ear.unwrap_or_else(|| sharpest(&plan, &left));
+        let k = ear.unwrap_or_else(|| sharpest(plan, &left));
         out.push([(k + n - 1) % n, k, (k + 1) % n].map(|i| face[left[i]]));
         left.remove(k);
         // The next ear is sought one corner on, so that the triangles do not all meet in one place.
@@ -79,7 +91,9 @@ fn is_ear(plan: &[DVec2], left: &[usize], k: usize) -> bool {
     let n = left.len();
     let own = [(k + n - 1) % n, k, (k + 1) % n];
     let [a, b, c] = own.map(|i| plan[left[i]]);
-    !(0..n).filter(|i| !own.contains(i)).map(|i| plan[left[i]]).any(|p| {
+    // Where the polygon is cut open to a hole, other corners lie on these.
+    let apart = |p: &DVec2| *p != a && *p != b && *p != c;
+    !(0..n).filter(|i| !own.contains(i)).map(|i| plan[left[i]]).filter(apart).any(|p| {
         (b - a).perp_dot(p - a) >= 0.0
             && (c - b).perp_dot(p - b) >= 0.0
             && (a - c).perp_dot(p - c) >= 0.0

@@ -1,0 +1,5 @@
+//! glTF 2.0.
+
+mod document;
+mod numbers;
+pub(super) mod read;

@@ -1,0 +1,210 @@
+//! Numbers out of a glTF file's buffers: accessors, views, and the bytes behind them.
+
+use super::document::{Accessor, Document};
+use crate::error::{Error, Result};
+use crate::io::{file, scan};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use glam::DVec3;
+use std::borrow::Cow;
+use std::path::{Component, Path};
+
+/// More buffers are refused: each may be a large file.
+const MOST_BUFFERS: usize = 64;
+/// Numbers of the types of components.
+const I8: u32 = 5120;
+const U8: u32 = 5121;
+const I16: u32 = 5122;
+const U16: u32 = 5123;
+const U32: u32 = 5125;
+const F32: u32 = 5126;
+
+/// The buffers of a file and how they are read.
+pub(super) struct Numbers<'a> {
+    path: &'a Path,
+    document: &'a Document,
+    buffers: Vec<Cow<'a, [u8]>>,
+}
+
+impl<'a> Numbers<'a> {
+    /// Fetch all buffers: the binary chunk, `data:` or a file in the same folder.
+    ///
+    /// # Errors
+    /// [`Error::Parse`] with the buffer, [`Error::Io`] for a file beside this one.
+    pub fn new(
+        path: &'a Path,
+        document: &'a Document,
+        binary: Option<&'a [u8]>,
+    ) -> Result<Numbers<'a>> {
+        let mut buffers = Vec::new();
+        if document.buffers.len() > MOST_BUFFERS {
+            let place = format!("buffer {MOST_BUFFERS}");
+            return Err(scan::error(
+                path,
+                place,
+                "no more buffers than this are read; pack them into one",
+            ));
+        }
+        for (b, buffer) in document.buffers.iter().enumerate() {
+            buffers.push(match (&buffer.uri, binary) {
+                (Some(uri), _) => Cow::Owned(fetch(path, uri, &format!("buffer {b}"))?),
+                (None, Some(binary)) if b == 0 => Cow::Borrowed(binary),
+                (None, _) => Cow::Borrowed(&[][..]),
+            });
+        }
+        Ok(Numbers { path, document, buffers })
+    }
+
+    /// The points that an accessor holds.
+    ///
+    /// # Errors
+    /// [`Error::Parse`] with the accessor.
+    pub fn points(&self, accessor: usize) -> Result<Vec<DVec3>> {
+        let at = self.accessor(accessor, "VEC3")?;
+        let scale = match (at.normalized, at.component_type) {
+            (true, I8) => 1.0 / f64::from(i8::MAX),
+            (true, U8) => 1.0 / f64::from(u8::MAX),
+            (true, I16) => 1.0 / f64::from(i16::MAX),
+            (true, U16) => 1.0 / f64::from(u16::MAX),
+            _ => 1.0,
+        };
+        let mut points = Vec::new();
+        for (k, item) in self.items(accessor, at, 3)?.enumerate() {
+            let size = item.len() / 3;
+            let number = |c: usize| number(&item[c * size..(c + 1) * size], at.component_type);
+            let p = DVec3::new(number(0), number(1), number(2)) * scale;
+            if !p.is_finite() {
+                return Err(self.error(accessor, format!("point {k} is not finite")));
+            }
+            points.push(if at.normalized { p.max(DVec3::NEG_ONE) } else { p });
+        }
+        Ok(points)
+    }
+
+    /// The vertex numbers that an accessor holds.
+    ///
+    /// # Errors
+    /// [`Error::Parse`] with the accessor.
+    pub fn indices(&self, accessor: usize) -> Result<Vec<u32>> {
+        let at = self.accessor(accessor, "SCALAR")?;
+        if !matches!(at.component_type, U8 | U16 | U32) {
+            return Err(self.error(accessor, "vertex numbers must be unsigned whole numbers"));
+        }
+        Ok(self
+            .items(accessor, at, 1)?
+            .map(|item| number(item, at.component_type) as u32)
+            .collect())
+    }
+
+    fn accessor(&self, accessor: usize, kind: &str) -> Result<&'a Accessor> {
+        let Some(at) = self.document.accessors.get(accessor) else {
+            return Err(self.error(accessor, "it is used, but there is none"));
+        };
+        if at.kind != kind {
+            let message = format!("it should be {kind}, but is `{}`", scan::clip(&at.kind));
+            return Err(self.error(accessor, message));
+        }
+        if at.sparse.is_some() {
+            return Err(
+                self.error(accessor, "sparse accessors cannot be read; export without them")
+            );
+        }
+        Ok(at)
+    }
+
+    /// The bytes of each item of an accessor.
+    fn items(
+        &self,
+        accessor: usize,
+        at: &Accessor,
+        parts: usize,
+    ) -> Result<impl Iterator<Item = &[u8]>> {
+        let part = match at.component_type {
+            I8 | U8 => 1,
+            I16 | U16 => 2,
+            U32 | F32 => 4,
+            other => return Err(self.error(accessor, format!("{other} is no type of components"))),
+        };
+        let size = part * parts;
+        let view = at.buffer_view.and_then(|v| self.document.buffer_views.get(v));
+        let Some(view) = view else {
+            return Err(self.error(accessor, "it has no buffer view"));
+        };
+        let stride = view.byte_stride.unwrap_or(size);
+        if stride < size {
+            return Err(
+                self.error(accessor, format!("its items of {size} bytes lie {stride} apart"))
+            );
+        }
+        let bytes = (self.buffers.get(view.buffer))
+            .and_then(|b| b.get(view.byte_offset..view.byte_offset.checked_add(view.byte_length)?))
+            .and_then(|b| b.get(at.byte_offset..));
+        // The last item need not fill its stride.
+        let wanted =
+            at.count.saturating_sub(1).checked_mul(stride).and_then(|n| n.checked_add(size));
+        let Some(bytes) = bytes.filter(|b| at.count == 0 || wanted.is_some_and(|n| n <= b.len()))
+        else {
+            let message =
+                format!("its {} items end outside the buffer; export the file again", at.count);
+            return Err(self.error(accessor, message));
+        };
+        Ok((0..at.count).map(move |k| &bytes[k * stride..k * stride + size]))
+    }
+
+    fn error(&self, accessor: usize, message: impl Into<String>) -> Error {
+        scan::error(self.path, format!("accessor {accessor}"), message)
+    }
+}
+
+/// One number, the least significant byte first.
+fn number(bytes: &[u8], component_type: u32) -> f64 {
+    match (component_type, bytes) {
+        (I8, &[a]) => f64::from(a as i8),
+        (U8, &[a]) => f64::from(a),
+        (I16, &[a, b]) => f64::from(i16::from_le_bytes([a, b])),
+        (U16, &[a, b]) => f64::from(u16::from_le_bytes([a, b])),
+        (U32, &[a, b, c, d]) => f64::from(u32::from_le_bytes([a, b, c, d])),
+        (F32, &[a, b, c, d]) => f64::from(f32::from_le_bytes([a, b, c, d])),
+        _ => unreachable!("items are cut to the size of their type"),
+    }
+}
+
+/// What a URI holds.
+fn fetch(path: &Path, uri: &str, place: &str) -> Result<Vec<u8>> {
+    if let Some(data) = uri.strip_prefix("data:") {
+        let Some((_, text)) = data.split_once(";base64,") else {
+            return Err(scan::error(path, place, "its data is not in base64"));
+        };
+        return STANDARD
+            .decode(text)
+            .map_err(|e| scan::error(path, place, format!("its base64 is damaged: {e}")));
+    }
+    let name = unescape(uri);
+    let beside = Path::new(&name);
+    // A model has no business outside its folder, nor on the net.
+    if uri.contains(':')
+        || !beside.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir))
+    {
+        let message = format!("`{}` is not a file in this folder", scan::clip(uri));
+        return Err(scan::error(path, place, message));
+    }
+    file::read(&path.parent().unwrap_or(Path::new("")).join(beside))
+}
+
+/// A URI without its percent signs.
+fn unescape(uri: &str) -> String {
+    let mut bytes = Vec::with_capacity(uri.len());
+    let mut rest = uri.as_bytes();
+    while let Some((&first, others)) = rest.split_first() {
+        let hex =
+            others.get(..2).filter(|_| first == b'%').and_then(|h| std::str::from_utf8(h).ok());
+        if let Some(byte) = hex.and_then(|h| u8::from_str_radix(h, 16).ok()) {
+            bytes.push(byte);
+            rest = &others[2..];
+        } else {
+            bytes.push(first);
+            rest = others;
+        }
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}

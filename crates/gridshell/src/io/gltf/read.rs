@@ -1,0 +1,218 @@
+//! glTF 2.0, text (`.gltf`) and binary (`.glb`): triangles of all meshes of the scene, placed by their nodes. The
+//! format is in metres with y up; here z is up. Own reader, so that every faulty number is told with its place.
+
+use super::document::{Document, Node, Primitive};
+use super::numbers::Numbers;
+use crate::error::{Error, Result};
+use crate::io::soup::{Digits, Soup};
+use crate::io::{LengthUnit, file, scan};
+use glam::{DMat4, DQuat, DVec3};
+use std::path::Path;
+
+/// More corners and points than this, and than one for two bytes of the file, come of copies without end.
+const COPIES: usize = 1_000_000;
+/// Modes of primitives.
+const TRIANGLES: u32 = 4;
+const STRIP: u32 = 5;
+const FAN: u32 = 6;
+/// The one extension that changes how positions are read and that is understood.
+const QUANTIZED: &str = "KHR_mesh_quantization";
+
+/// Read the default scene; all meshes as they stand where there is none.
+///
+/// # Errors
+/// [`Error::Parse`] with the line of the document, or the node, mesh or accessor by its number.
+pub(in crate::io) fn read(path: &Path) -> Result<Soup> {
+    let bytes = file::read(path)?;
+    let (text, binary) = chunks(path, &bytes)?;
+    let document: Document = serde_json::from_slice(text).map_err(|e| {
+        scan::error(path, format!("line {}", e.line()), format!("this is no glTF document: {e}"))
+    })?;
+    let numbers = Numbers::new(path, &document, binary)?;
+    let mut reading = Reading {
+        path,
+        document: &document,
+        numbers,
+        soup: Soup::default(),
+        passed: 0,
+        room: COPIES.max(bytes.len() / 2),
+    };
+    reading.scene()?;
+    let mut soup = reading.soup;
+    soup.note_count(reading.passed, "skipped", "primitives of points or lines");
+    let known = |e: &&String| !e.starts_with("KHR_materials") && *e != QUANTIZED;
+    let unknown: Vec<String> =
+        document.extensions_required.iter().filter(known).take(3).map(|e| scan::clip(e)).collect();
+    if !unknown.is_empty() {
+        soup.notes
+            .push(format!("the file asks for {}, which is not understood", unknown.join(", ")));
+    }
+    Ok(Soup { unit: Some(LengthUnit::Metre), digits: Digits::Single, ..soup })
+}
+
+/// The document, and the binary chunk of a `.glb`.
+fn chunks<'a>(path: &Path, bytes: &'a [u8]) -> Result<(&'a [u8], Option<&'a [u8]>)> {
+    if !bytes.starts_with(b"glTF") {
+        return Ok((bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None));
+    }
+    let word = |at: usize| {
+        let four = bytes.get(at..at.saturating_add(4))?;
+        Some(u32::from_le_bytes([four[0], four[1], four[2], four[3]]))
+    };
+    if word(4) != Some(2) {
+        return Err(scan::error(path, "byte 4", "only version 2 of binary glTF can be read"));
+    }
+    let chunk = |at: usize, kind: u32| {
+        let length = word(at)? as usize;
+        let end = at.checked_add(8)?.checked_add(length)?;
+        (word(at + 4)? == kind).then(|| bytes.get(at + 8..end)).flatten().map(|c| (c, end))
+    };
+    let (text, end) = chunk(12, 0x4E4F_534A).ok_or_else(|| {
+        scan::error(path, "byte 12", "the document is missing or cut off; export the file again")
+    })?;
+    Ok((text, chunk(end, 0x004E_4942).map(|(binary, _)| binary)))
+}
+
+/// A file while it is read.
+struct Reading<'a> {
+    path: &'a Path,
+    document: &'a Document,
+    numbers: Numbers<'a>,
+    soup: Soup,
+    /// Primitives that are no triangles.
+    passed: usize,
+    /// Corners and points that may still come.
+    room: usize,
+}
+
+impl Reading<'_> {
+    fn scene(&mut self) -> Result<()> {
+        let document = self.document;
+        if document.nodes.is_empty() {
+            return (0..document.meshes.len()).try_for_each(|m| self.mesh(m, DMat4::IDENTITY));
+        }
+        let scene = document.scene.map_or(document.scenes.first(), |s| document.scenes.get(s));
+        let roots = match scene {
+            Some(scene) => scene.nodes.clone(),
+            None => roots(&document.nodes),
+        };
+        // A node hangs on one other only, so each is seen once, in whatever circles the file runs.
+        let mut seen = vec![false; document.nodes.len()];
+        let mut open: Vec<(usize, DMat4)> = roots.into_iter().rev().map(|n| (n, Z_UP)).collect();
+        while let Some((n, above)) = open.pop() {
+            let Some(node) = document.nodes.get(n) else {
+                return Err(self.error("scene", format!("node {n} is used, but there is none")));
+            };
+            if std::mem::replace(&mut seen[n], true) {
+                return Err(
+                    self.error(format!("node {n}"), "it is used twice: glTF allows one place")
+                );
+            }
+            let place = above * transform(node);
+            if !place.is_finite() {
+                return Err(self.error(format!("node {n}"), "its transform is not finite"));
+            }
+            if let Some(m) = node.mesh {
+                self.mesh(m, place)?;
+            }
+            open.extend(node.children.iter().rev().map(|&child| (child, place)));
+        }
+        Ok(())
+    }
+
+    fn mesh(&mut self, m: usize, place: DMat4) -> Result<()> {
+        let document = self.document;
+        let Some(mesh) = document.meshes.get(m) else {
+            return Err(self.error("nodes", format!("mesh {m} is used, but there is none")));
+        };
+        for (k, primitive) in mesh.primitives.iter().enumerate() {
+            self.primitive(primitive, place, &format!("mesh {m}, primitive {k}"))?;
+        }
+        Ok(())
+    }
+
+    fn primitive(&mut self, primitive: &Primitive, place: DMat4, at: &str) -> Result<()> {
+        let mode = primitive.mode.unwrap_or(TRIANGLES);
+        if !matches!(mode, TRIANGLES | STRIP | FAN) {
+            self.passed += 1;
+            return Ok(());
+        }
+        if primitive.extensions.draco.is_some() {
+            return Err(self.error(at, "it is compressed (Draco); export it without compression"));
+        }
+        let Some(position) = primitive.attributes.position else {
+            return Err(self.error(at, "it has no positions"));
+        };
+        let first = self.soup.points.len();
+        let points = self.numbers.points(position)?;
+        let count = points.len();
+        let corners = match primitive.indices {
+            Some(accessor) => self.numbers.indices(accessor)?,
+            None => (0..count as u32).collect(),
+        };
+        let Some(room) = self.room.checked_sub(corners.len() + count) else {
+            return Err(
+                self.error(at, "there are too many copies of meshes; export only the surface")
+            );
+        };
+        self.room = room;
+        if let Some(v) = corners.iter().find(|&&v| v as usize >= count) {
+            let message = format!("it uses vertex {v}, but there are only {count}, from 0");
+            return Err(self.error(at, message));
+        }
+        self.soup.points.extend(points.into_iter().map(|p| place.transform_point3(p)));
+        let turned = place.determinant() < 0.0;
+        for [a, b, c] in triangles(&corners, mode) {
+            let [a, b, c] = [a, b, c].map(|v| v + first as u32);
+            self.soup.faces.push(if turned { vec![a, c, b] } else { vec![a, b, c] });
+        }
+        Ok(())
+    }
+
+    fn error(&self, place: impl Into<String>, message: impl Into<String>) -> Error {
+        scan::error(self.path, place, message)
+    }
+}
+
+/// From y up to z up.
+const Z_UP: DMat4 = DMat4::from_cols_array(&[
+    1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0,
+]);
+
+/// The nodes that are nobody's children.
+fn roots(nodes: &[Node]) -> Vec<usize> {
+    let mut child = vec![false; nodes.len()];
+    for &c in nodes.iter().flat_map(|n| &n.children) {
+        if let Some(child) = child.get_mut(c) {
+            *child = true;
+        }
+    }
+    (0..nodes.len()).filter(|&n| !child[n]).collect()
+}
+
+fn transform(node: &Node) -> DMat4 {
+    if let Some(matrix) = &node.matrix {
+        return DMat4::from_cols_array(matrix);
+    }
+    let vector = |v: &Option<Box<[f64; 3]>>, usual| v.as_ref().map_or(usual, |v| DVec3::from(**v));
+    let rotation = node.rotation.as_ref().map_or(DQuat::IDENTITY, |r| {
+        let turn = DQuat::from_array(**r);
+        if turn.length() > 0.0 && turn.is_finite() { turn.normalize() } else { DQuat::IDENTITY }
+    });
+    DMat4::from_scale_rotation_translation(
+        vector(&node.scale, DVec3::ONE),
+        rotation,
+        vector(&node.translation, DVec3::ZERO),
+    )
+}
+
+fn triangles(corners: &[u32], mode: u32) -> Vec<[u32; 3]> {
+    match mode {
+        // Every other triangle of a strip runs the other way.
+        STRIP => (corners.windows(3).enumerate())
+            .map(|(k, t)| if k % 2 == 0 { [t[0], t[1], t[2]] } else { [t[1], t[0], t[2]] })
+            .collect(),
+        FAN => corners.windows(2).skip(1).map(|t| [corners[0], t[0], t[1]]).collect(),
+        _ => corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect(),
+    }
+}

@@ -1,0 +1,53 @@
+//! The files that the fuzz targets start from, and those that they broke a reader with: the first are read, the
+//! second are answered, with a surface or an error.
+
+use gridshell::io;
+use gridshell::surface::{Model, Sampling};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Folders whose files hold no surface.
+const OTHER: [&str; 3] = ["lines", "values", "recipe"];
+
+/// The files of one of the fuzz folders that hold surfaces.
+fn files(folder: &str) -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz").join(folder);
+    let mut files = Vec::new();
+    for entry in fs::read_dir(root).expect("the folder is in the repository") {
+        let folder = entry.expect("it can be listed").path();
+        if folder.is_dir() && !OTHER.iter().any(|o| folder.ends_with(o)) {
+            let inside = fs::read_dir(folder).expect("it can be listed");
+            files.extend(inside.map(|e| e.expect("it can be listed").path()));
+        }
+    }
+    files.sort();
+    files
+}
+
+fn sampling(model: &Model) -> Sampling {
+    let size = model.size();
+    Sampling { max_edge: size / 16.0, chord_error: size / 100.0, corner_angle: 0.6 }
+}
+
+#[test]
+fn every_seed_is_a_surface() {
+    let files = files("seeds");
+    assert!(files.len() > 10);
+    for file in files {
+        let model = io::open(&file.to_string_lossy()).expect("a seed is a valid file");
+        let surface = model.surface(&sampling(&model)).expect("a seed is a valid surface");
+        assert!(surface.area > 0.0, "{}", file.display());
+    }
+}
+
+#[test]
+fn every_find_is_answered_in_time() {
+    for file in files("finds") {
+        let start = Instant::now();
+        if let Ok(model) = io::open(&file.to_string_lossy()) {
+            let _ = model.surface(&sampling(&model));
+        }
+        assert!(start.elapsed() < Duration::from_secs(10), "{}", file.display());
+    }
+}

@@ -1,0 +1,14 @@
+//! Tables of wanted lengths and directions.
+#![no_main]
+use gridshell::io;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    gridshell_fuzz::with_file("csv", bytes, |path| {
+        if let Ok(rows) = io::read_lengths(path) {
+            assert!(rows.iter().all(|r| r[3] > 0.0 && r.iter().all(|x| x.is_finite())));
+        }
+        if let Ok(rows) = io::read_directions(path) {
+            assert!(rows.iter().flatten().all(|x| x.is_finite()));
+        }
+    });
+});
