@@ -107,7 +107,15 @@ fn measure(gridshell: &Path, folder: &Path, case: &Case) -> Result<String, Strin
     let output = target().join("cases").join(format!("{stem}.obj"));
     fs::create_dir_all(target().join("cases")).map_err(|e| e.to_string())?;
     let mut command = Command::new(gridshell);
-    command.args(["generate", "--json", "--edge-length", &edge_length.to_string(), "-o"]);
+    command.args([
+        "generate",
+        "--part",
+        "all",
+        "--json",
+        "--edge-length",
+        &edge_length.to_string(),
+        "-o",
+    ]);
     let run = watched::run(command.arg(output).arg(file))?;
     let document: Value = serde_json::from_str(&run.stdout).map_err(|_| {
         let code = run.code.map_or("none".into(), |c| c.to_string());

@@ -24,7 +24,8 @@ pub enum Command {
     Generate(Box<Generate>),
     /// Measure a grid.
     Measure(Measure),
-    /// Tell what a surface is: patches, loops, corners, area, box, units, gaps.
+    /// Tell what a file holds: format, units, parts, objects, patches, loops, corners, creases, gaps, what was
+    /// skipped, and edge lengths that would suit it.
     Inspect(Inspect),
     /// List the built-in surfaces, with a sensible edge length each.
     Surfaces,
@@ -35,6 +36,10 @@ pub struct Generate {
     /// A file (STEP, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface.
     #[arg(default_value = "great-court")]
     pub surface: String,
+    /// Which of several separate parts to lay the grid on: a number as `inspect` lists them, or `all` for one grid of
+    /// several pieces.
+    #[arg(long, value_name = "N|all")]
+    pub part: Option<String>,
     /// Wanted length of the members, metres.
     #[arg(short = 'l', long, value_name = "L", value_parser = positive, conflicts_with = "nodes", allow_negative_numbers = true)]
     pub edge_length: Option<f64>,
@@ -136,6 +141,9 @@ pub struct Inspect {
     /// Unit of a mesh file that states none, or the wrong one: mm, cm, m, in or ft. Without it metres.
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     pub units: Option<LengthUnit>,
+    /// Draw it, in plan and in perspective (SVG or PNG by extension); may be given more than once.
+    #[arg(long, value_name = "FILE")]
+    pub picture: Vec<PathBuf>,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,

@@ -5,6 +5,7 @@ mod failure;
 mod generate;
 mod inspect;
 mod measure;
+mod picture;
 mod progress;
 mod recipe;
 mod say;

@@ -56,6 +56,9 @@ pub fn from_args(args: &Generate) -> Result<Recipe, Failure> {
     if let Some(symmetry) = &args.symmetry {
         recipe.symmetry = symmetry.parse()?;
     }
+    if let Some(part) = &args.part {
+        recipe.part = part.parse()?;
+    }
     if let Some(border) = args.border {
         recipe.border = border;
     }

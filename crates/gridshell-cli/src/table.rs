@@ -1,5 +1,6 @@
 //! Tables for people, after Table 3 of the paper.
 
+use gridshell::inspect::Inspection;
 use gridshell::run::{Run, SurfaceSummary};
 use gridshell::stages::measure::{Lengths, Quality};
 use std::fmt::Write;
@@ -15,6 +16,16 @@ pub fn run(run: &Run) -> String {
     let _ = writeln!(text, "edge length {:.4} m, seed {}", run.edge_length, run.seed);
     if let Some(symmetry) = &run.symmetry {
         let _ = writeln!(text, "symmetry: {}", symmetry.told());
+    }
+    for part in &run.parts {
+        let quality = part.fluency.map_or("inf".to_owned(), |q| format!("{q:.2}"));
+        let _ = writeln!(
+            text,
+            "part {}: {}, {:.4} m2, Q {quality}",
+            part.number,
+            count(part.nodes, "node"),
+            part.area
+        );
     }
     text += "\n";
     text += HEADER;
@@ -41,9 +52,25 @@ pub fn grid(name: &str, quality: &Quality) -> String {
     format!("{HEADER}{}\n\n{}", row(name, Some(quality), None), checks(quality))
 }
 
-/// One surface.
-pub fn surface(s: &SurfaceSummary) -> String {
+/// All that there is to say of a model.
+pub fn inspection(i: &Inspection) -> String {
+    let s = &i.surface;
     let mut text = format!("{}\n", surface_line(s));
+    text += &origin(i);
+    for object in &i.source.objects {
+        let read = match object.faces {
+            0 => "left out".to_owned(),
+            n => count(n, "face"),
+        };
+        let _ = writeln!(text, "{}: {read}", object.told());
+    }
+    if i.parts.len() > 1 || i.parts.iter().any(|p| p.fault.is_some()) {
+        let _ =
+            writeln!(text, "{} separate parts; choose with --part N or --part all", i.parts.len());
+        for part in &i.parts {
+            let _ = writeln!(text, "part {}", part.told());
+        }
+    }
     for (k, boundary) in s.boundaries.iter().enumerate() {
         let _ = writeln!(
             text,
@@ -58,16 +85,54 @@ pub fn surface(s: &SurfaceSummary) -> String {
         "box: x {:.4} to {:.4}, y {:.4} to {:.4}, z {:.4} to {:.4} m",
         a[0], b[0], a[1], b[1], a[2], b[2]
     );
+    match i.creases.len() {
+        0 => {}
+        n => {
+            let whole: f64 = i.creases.iter().map(|c| c.length).sum();
+            let _ = writeln!(text, "{}: {whole:.4} m in all", count(n, "crease"));
+        }
+    }
     let _ = writeln!(text, "unit of the file: {} m", s.unit_in_metres);
     let _ = writeln!(
         text,
         "largest gap: {:.1e} m between edges, {:.1e} m between edges and patches",
         s.gap, s.edge_gap
     );
+    for suggestion in &i.edge_lengths {
+        let _ = writeln!(
+            text,
+            "about {} nodes: edge length {}",
+            suggestion.nodes,
+            three_digits(suggestion.edge_length)
+        );
+    }
     for note in &s.notes {
         let _ = writeln!(text, "note: {note}");
     }
     text
+}
+
+/// Format, its version, the program and the unit, as far as the file tells them.
+fn origin(i: &Inspection) -> String {
+    let source = &i.source;
+    if source.format.is_empty() {
+        return String::new();
+    }
+    let mut parts = vec![[source.format.as_str(), &source.version].join(" ").trim().to_owned()];
+    if !source.application.is_empty() {
+        parts.push(format!("written by {}", source.application));
+    }
+    parts.push(match &source.unit {
+        Some(unit) => format!("unit {}", unit.name),
+        None => "no unit stated".to_owned(),
+    });
+    parts.join(", ") + "\n"
+}
+
+/// A length to three digits, metres.
+fn three_digits(x: f64) -> String {
+    let digits = (0..9).find(|&d| x * 10f64.powi(d) >= 100.0).unwrap_or(9) as usize;
+    format!("{x:.digits$} m")
 }
 
 fn surface_line(s: &SurfaceSummary) -> String {

@@ -29,6 +29,7 @@ pub mod bubbles;
 pub mod degree;
 pub mod error;
 pub mod grid;
+pub mod inspect;
 pub mod io;
 pub mod job;
 pub mod math;

@@ -14,6 +14,8 @@ pub struct Recipe {
     pub edge_length: Option<f64>,
     /// Wanted number of nodes; used when `edge_length` is None.
     pub nodes: Option<usize>,
+    /// Which parts of a model of several separate ones.
+    pub part: Parts,
     /// How the wanted length varies over the surface.
     pub size: Size,
     /// Direction that one family of lines is to follow where the shape allows.
@@ -178,7 +180,7 @@ pub enum Symmetry {
     Turns(u32),
 }
 
-/// A symmetry as recipes have it.
+/// A symmetry or a part as recipes have it.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Written {
@@ -231,6 +233,54 @@ impl std::fmt::Display for Symmetry {
 impl From<Symmetry> for String {
     fn from(symmetry: Symmetry) -> String {
         symmetry.to_string()
+    }
+}
+
+/// Which parts of a model a grid is laid on; written `one`, `all`, or a part's number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "String")]
+pub enum Parts {
+    /// The only one; several are an error that lists them.
+    One,
+    /// All: one grid of several pieces.
+    All,
+    /// The part of this number, counted from 1.
+    Number(usize),
+}
+
+impl TryFrom<Written> for Parts {
+    type Error = Error;
+
+    fn try_from(written: Written) -> Result<Parts> {
+        match written {
+            Written::Number(n) => n.to_string().parse(),
+            Written::Name(name) => name.parse(),
+        }
+    }
+}
+
+impl std::str::FromStr for Parts {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Parts> {
+        match (text, text.parse()) {
+            ("one", _) => Ok(Parts::One),
+            ("all", _) => Ok(Parts::All),
+            (_, Ok(n)) if n > 0 => Ok(Parts::Number(n)),
+            _ => Err(Error::Option(format!(
+                "no part {text:?}: it must be all, or a number from 1 on as `inspect` lists them"
+            ))),
+        }
+    }
+}
+
+impl From<Parts> for String {
+    fn from(parts: Parts) -> String {
+        match parts {
+            Parts::One => "one".into(),
+            Parts::All => "all".into(),
+            Parts::Number(n) => n.to_string(),
+        }
     }
 }
 
@@ -377,6 +427,7 @@ impl Default for Recipe {
             size: Size::Uniform,
             direction: Direction::Any,
             symmetry: Symmetry::None,
+            part: Parts::One,
             seed: 1,
             effort: Effort::Standard,
             candidates: None,

@@ -2,6 +2,7 @@
 //!
 //! Serialised, a [`Run`] is the document `gridshell.run/1`; the grids themselves are left out of it.
 
+use crate::error::Error;
 use crate::grid::Grid;
 use crate::recipe::{self, Recipe};
 use crate::stages::measure::{Border, IrregularNode, Quality};
@@ -32,6 +33,9 @@ pub struct Run {
     /// The symmetry that the grid has; None where none was asked for or found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub symmetry: Option<SymmetryReport>,
+    /// The pieces of the grid, where it has one on each of several parts; else empty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<PartReport>,
     /// The candidates, the one that was kept first and the others by how far they came.
     pub candidates: Vec<CandidateReport>,
     /// The stages in their order.
@@ -47,6 +51,84 @@ pub struct Run {
     /// The final grid.
     #[serde(skip)]
     pub grid: Grid,
+}
+
+/// One piece of a grid with a piece on each part of a model.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PartReport {
+    /// The part, counted from 1.
+    pub number: usize,
+    /// Its nodes are those from this one on ...
+    pub first_node: usize,
+    /// ... so many.
+    pub nodes: usize,
+    /// Area of the part, square metres.
+    pub area: f64,
+    /// Fluency Q of its grid; None when it is infinite.
+    pub fluency: Option<f64>,
+    /// The symmetry that its grid has, if one was asked for and found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub symmetry: Option<SymmetryReport>,
+}
+
+/// One part of a model: faces that hang together.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PartSummary {
+    /// Counted from 1.
+    pub number: usize,
+    /// Number of patches, or of the mesh's faces.
+    pub faces: usize,
+    /// Area in square metres; 0 where it is no surface.
+    pub area: f64,
+    /// Number of boundary loops.
+    pub loops: usize,
+    /// Least and largest coordinates, metres.
+    #[serde(rename = "box")]
+    pub bounds: Bounds,
+    /// The file's objects that it is made of, where known.
+    pub objects: Vec<String>,
+    /// Why no surface could be made of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fault: Option<String>,
+}
+
+impl PartSummary {
+    /// Part `number` of `model` in a few figures: these faces, and the surface made of them or why there is none.
+    pub fn new(
+        number: usize,
+        faces: &[u32],
+        model: &Model,
+        surface: std::result::Result<&Surface, &Error>,
+    ) -> PartSummary {
+        PartSummary {
+            number,
+            faces: faces.len(),
+            area: surface.map_or(0.0, |s| s.area),
+            loops: surface.map_or(0, |s| s.loops.len()),
+            bounds: surface.map_or(Bounds::of(&[]), |s| Bounds::of(&s.carrier.points)),
+            objects: model.objects_of(faces),
+            fault: surface.err().map(ToString::to_string),
+        }
+    }
+
+    /// As a line of a list.
+    pub fn told(&self) -> String {
+        let plural = |n: usize| if n == 1 { "" } else { "s" };
+        let (faces, loops) = (self.faces, self.loops);
+        let mut text = format!("{}: {faces} face{}, ", self.number, plural(faces));
+        if let Some(fault) = &self.fault {
+            text += &format!("no surface: {fault}");
+        } else {
+            let [x, y, z] =
+                [0, 1, 2].map(|k| f64::midpoint(self.bounds.min[k], self.bounds.max[k]));
+            let (area, s) = (self.area, plural(loops));
+            text += &format!("{area:.3} m2, {loops} loop{s}, about ({x:.2}, {y:.2}, {z:.2})");
+        }
+        if !self.objects.is_empty() {
+            text += &format!(", {}", self.objects.join(", "));
+        }
+        text
+    }
 }
 
 /// The symmetry of a grid.
@@ -84,6 +166,9 @@ impl SymmetryReport {
 /// One of the candidates that a grid was chosen from, as it was when it was left behind (before relaxing).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CandidateReport {
+    /// The part that it was for, where there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub part: Option<usize>,
     /// Its seed, derived from the run's.
     pub seed: u64,
     /// `lattice` or `random`.

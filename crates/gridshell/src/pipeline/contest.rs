@@ -180,6 +180,7 @@ pub fn table(
     recipe: &Recipe,
 ) -> Vec<CandidateReport> {
     let report = |c: &Candidate| CandidateReport {
+        part: None,
         seed: starts[c.start].seed,
         start: starts[c.start].kind(),
         heats: c.heats,

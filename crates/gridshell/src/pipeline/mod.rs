@@ -8,6 +8,7 @@
 mod contest;
 mod effort;
 mod narrow;
+mod parts;
 mod starts;
 mod symmetry;
 mod wishes;
@@ -32,21 +33,28 @@ const SENSIBLE_NODES: usize = 1000;
 /// Lay a grid on `model`.
 ///
 /// # Errors
-/// [`Error::Option`] for a recipe that makes no sense, [`Error::Surface`] for a model that is no surface,
-/// [`Error::NoGrid`] where no valid grid of this edge length exists.
+/// [`Error::Option`] for a recipe that makes no sense, [`Error::Surface`] for a model that is no surface or has
+/// several parts of which the recipe chooses none, [`Error::NoGrid`] where no valid grid of this edge length exists.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
+    parts::generate(model, recipe, job)
+}
+
+/// Lay a grid on a model of one part; the surface that it was laid on is given too.
+fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
     let Scale { length, nodes } = scale(model, recipe)?;
     let make = |l: f64| model.surface(&sampling(l, nodes, recipe));
     let (surface, mut fixed) = wishes::surface(recipe, length, make)?;
     let size = Scale { length, nodes };
     if let Some(group) = symmetry::group(&surface, model, recipe, length)? {
-        return symmetry::generate(model, &surface, &group, recipe, &size, fixed, job);
+        let run = symmetry::generate(model, &surface, &group, recipe, &size, fixed, job)?;
+        return Ok((run, surface));
     }
     if recipe.symmetry != Symmetry::None {
         fixed.push("no symmetry was found: the grid has none".into());
     }
-    lay(model, &surface, recipe, &size, fixed, job)
+    let run = lay(model, &surface, recipe, &size, fixed, job)?;
+    Ok((run, surface))
 }
 
 /// Lay a grid on a surface that was made from `model`; `fixed` is what the user should know of what is fixed on it.
@@ -156,6 +164,7 @@ fn finish(
         edge_length: length,
         recipe: recipe.clone(),
         symmetry: None,
+        parts: Vec::new(),
         candidates,
         stages,
         irregular: irregular_nodes(&grid),
@@ -232,13 +241,19 @@ struct Scale {
 }
 
 fn scale(model: &Model, recipe: &Recipe) -> Result<Scale> {
-    let size = model.size();
-    let rough = Sampling {
+    scale_on(model.surface(&rough(model.size(), recipe))?, recipe)
+}
+
+/// The sampling that areas and lengths are estimated with, for a model of this size.
+fn rough(size: f64, recipe: &Recipe) -> Sampling {
+    Sampling {
         max_edge: 0.02 * size,
         chord_error: 1e-3 * size,
         corner_angle: recipe.corner_angle_deg.to_radians(),
-    };
-    let mut surface = model.surface(&rough)?;
+    }
+}
+
+fn scale_on(mut surface: Surface, recipe: &Recipe) -> Result<Scale> {
     let mean = wishes::grade(&mut surface, recipe, recipe.edge_length);
     let length = match (mean.or(recipe.edge_length), recipe.nodes) {
         (Some(length), _) => length,
@@ -259,8 +274,8 @@ fn nodes_for(surface: &Surface, length: f64) -> f64 {
     area / (length * length) + rim / length + surface.euler_characteristic() as f64
 }
 
-/// The edge length that makes about `nodes` nodes: [`nodes_for`] solved for it.
-fn length_for(surface: &Surface, nodes: usize) -> f64 {
+/// The edge length, metres, that makes about `nodes` nodes on `surface`.
+pub fn length_for(surface: &Surface, nodes: usize) -> f64 {
     let (area, rim) = room(surface);
     let count = (nodes as f64 - surface.euler_characteristic() as f64).max(3.0);
     // count = area / l^2 + rim / l, solved for 1 / l.

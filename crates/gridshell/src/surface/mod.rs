@@ -28,6 +28,7 @@ mod motion;
 pub mod nurbs;
 pub mod offset;
 mod orient;
+pub mod parts;
 mod plan;
 mod polygon;
 pub mod project;

@@ -8,6 +8,7 @@ mod fixed;
 mod hexagon;
 mod narrow;
 mod paper;
+mod parts;
 mod promise;
 mod sheets;
 mod stopping;

@@ -1,0 +1,267 @@
+//! Models of several separate parts: which of them a grid is laid on, and one grid of several pieces.
+//!
+//! Each part gets a grid of its own, of the same edge length, one after the other; then they stand side by side
+//! on one surface and are measured as one. Symmetries and directions are each part's own.
+
+use super::{Scale, check, rough, scale_on, single};
+use crate::error::{Error, Result};
+use crate::grid::{Grid, Place};
+use crate::job::Job;
+use crate::mesh::Mesh;
+use crate::recipe::{Parts, Recipe, Size};
+use crate::run::{PartReport, PartSummary, Run, StageReport, SurfaceSummary};
+use crate::stages::measure::{irregular_nodes, measure};
+use crate::surface::parts::Offset;
+use crate::surface::{ChainPoint, Locator, Model, Sampling, Surface};
+use glam::DVec3;
+
+/// Parts beyond this many are only counted in messages.
+const MOST_TOLD: usize = 20;
+/// A grid on more parts than this is refused: they are no design surfaces.
+const MOST_LAID: usize = 1000;
+
+/// Lay a grid on the parts of `model` that the recipe asks for.
+///
+/// # Errors
+/// [`Error::Surface`] listing the parts where there are several and the recipe chooses none, [`Error::Option`] for
+/// a part that is not there; as [`super::generate`] for each part.
+pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
+    let parts = model.parts();
+    match recipe.part {
+        Parts::Number(n) => {
+            let faces = n.checked_sub(1).and_then(|k| parts.get(k)).ok_or_else(|| {
+                Error::Option(format!("there is no part {n}: the parts are 1 to {}", parts.len()))
+            })?;
+            let mut run = single(&model.of_faces(faces), recipe, job)?.0;
+            if parts.len() > 1 {
+                run.warnings.push(format!("part {n} of {}; the others are left out", parts.len()));
+            }
+            Ok(run)
+        }
+        Parts::All if parts.len() > MOST_LAID => Err(Error::Surface(format!(
+            "{} separate parts are too many for one grid; choose one with `part`",
+            parts.len()
+        ))),
+        Parts::All if parts.len() > 1 => all(model, &parts, recipe, job),
+        Parts::One if parts.len() > 1 => Err(Error::Surface(choice(model, &parts))),
+        Parts::One | Parts::All => Ok(single(model, recipe, job)?.0),
+    }
+}
+
+/// What to choose from.
+fn choice(model: &Model, parts: &[Vec<u32>]) -> String {
+    let rough = rough(model.size(), &Recipe::default());
+    let mut text = format!(
+        "there are {} separate parts: choose one (--part N), or all for one grid of several pieces (--part all)",
+        parts.len()
+    );
+    for (number, faces) in (1..).zip(parts.iter().take(MOST_TOLD)) {
+        let surface = model.of_faces(faces).surface(&rough);
+        let summary = PartSummary::new(number, faces, model, surface.as_ref());
+        text += &format!("\n  part {}", summary.told());
+    }
+    if parts.len() > MOST_TOLD {
+        text += &format!("\n  and {} more", parts.len() - MOST_TOLD);
+    }
+    text
+}
+
+/// One grid with a piece on each part.
+fn all(model: &Model, parts: &[Vec<u32>], recipe: &Recipe, job: &Job) -> Result<Run> {
+    let models: Vec<Model> = parts.iter().map(|faces| model.of_faces(faces)).collect();
+    let sampling = rough(model.size(), recipe);
+    let surfaces = models.iter().enumerate();
+    let surfaces = surfaces.map(|(k, part)| part.surface(&sampling).map_err(|e| of_part(k + 1, e)));
+    let whole = Surface::side_by_side(surfaces.collect::<Result<_>>()?).0;
+    let Scale { length, .. } = scale_on(whole, recipe)?;
+    let mut part_recipe = Recipe { part: Parts::One, ..recipe.clone() };
+    // Lengths at points in metres say the length of each part themselves.
+    let given = recipe.edge_length.is_some() || recipe.nodes.is_some();
+    if given || !matches!(recipe.size, Size::Points { .. }) {
+        (part_recipe.edge_length, part_recipe.nodes) = (Some(length), None);
+    }
+    let owners = Owners::new(&models, recipe, length)?;
+    let (mut runs, mut surfaces) = (Vec::new(), Vec::new());
+    for (k, part) in models.iter().enumerate() {
+        let recipe = owners.recipe(k, &part_recipe);
+        let (run, surface) = single(part, &recipe, job).map_err(|e| of_part(k + 1, e))?;
+        runs.push(run);
+        surfaces.push(surface);
+    }
+    let (surface, offsets) = Surface::side_by_side(surfaces);
+    join(model, &surface, &offsets, runs, recipe, length, job)
+}
+
+/// The same error, telling the part.
+fn of_part(number: usize, error: Error) -> Error {
+    match error {
+        Error::Surface(message) => Error::Surface(format!("part {number}: {message}")),
+        Error::Option(message) => Error::Option(format!("part {number}: {message}")),
+        Error::NoGrid { at, message, edge_length } => {
+            Error::NoGrid { at, message: format!("part {number}: {message}"), edge_length }
+        }
+        other => other,
+    }
+}
+
+/// The part that each guide and anchor is nearest to.
+struct Owners {
+    guides: Vec<usize>,
+    anchors: Vec<usize>,
+}
+
+impl Owners {
+    fn new(models: &[Model], recipe: &Recipe, length: f64) -> Result<Owners> {
+        if recipe.guides.is_empty() && recipe.anchors.is_empty() {
+            return Ok(Owners { guides: Vec::new(), anchors: Vec::new() });
+        }
+        let sampling = Sampling { max_edge: length, chord_error: 0.1 * length, corner_angle: 1.0 };
+        let surfaces: Vec<Surface> =
+            models.iter().map(|m| m.surface(&sampling)).collect::<Result<_>>()?;
+        let locators: Vec<Locator> = surfaces.iter().map(Locator::new).collect();
+        let nearest = |p: [f64; 3]| {
+            let p = DVec3::from(p);
+            let off = |k: usize| {
+                let place = locators[k].nearest(p);
+                place.map_or(f64::INFINITY, |at| surfaces[k].carrier.xyz(&at).distance(p))
+            };
+            (0..models.len()).min_by(|&a, &b| off(a).total_cmp(&off(b))).unwrap_or(0)
+        };
+        let middle = |guide: &Vec<[f64; 3]>| guide.get(guide.len() / 2).copied();
+        let guide = |g| middle(g).map_or(0, nearest);
+        Ok(Owners {
+            guides: recipe.guides.iter().map(guide).collect(),
+            anchors: recipe.anchors.iter().map(|&p| nearest(p)).collect(),
+        })
+    }
+
+    /// The recipe with the guides and anchors of part `k` only.
+    fn recipe(&self, k: usize, recipe: &Recipe) -> Recipe {
+        let mut own = recipe.clone();
+        let mut owners = self.guides.iter();
+        own.guides.retain(|_| owners.next() == Some(&k));
+        let mut owners = self.anchors.iter();
+        own.anchors.retain(|_| owners.next() == Some(&k));
+        own
+    }
+}
+
+fn join(
+    model: &Model,
+    surface: &Surface,
+    offsets: &[Offset],
+    runs: Vec<Run>,
+    recipe: &Recipe,
+    length: f64,
+    job: &Job,
+) -> Result<Run> {
+    let grids: Vec<&Grid> = runs.iter().map(|run| &run.grid).collect();
+    let grid = side_by_side(&grids, offsets)?;
+    let quality = measure(&grid, surface, length, &recipe.measure);
+    check(surface, &grid, &quality, length)?;
+    let stages = (0..runs[0].stages.len()).map(|s| stage(s, &runs, surface, offsets, length));
+    let stages = stages.collect::<Result<Vec<_>>>()?;
+    let (mut parts, mut candidates, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
+    let mut first_node = 0;
+    for (number, run) in (1..).zip(&runs) {
+        let nodes = run.grid.xyz.len();
+        parts.push(PartReport {
+            number,
+            first_node,
+            nodes,
+            area: run.surface.area,
+            fluency: run.quality.fluency,
+            symmetry: run.symmetry.clone(),
+        });
+        first_node += nodes;
+        let of_this = |c: &crate::run::CandidateReport| crate::run::CandidateReport {
+            part: Some(number),
+            ..c.clone()
+        };
+        candidates.extend(run.candidates.iter().map(of_this));
+        let tell = |w: &String| format!("part {number}: {w}");
+        warnings.extend(run.warnings.iter().map(tell));
+    }
+    let first = runs.into_iter().next().expect("there are several parts");
+    Ok(Run {
+        surface: SurfaceSummary::new(model, surface),
+        recipe: recipe.clone(),
+        symmetry: None,
+        edge_length: length,
+        parts,
+        candidates,
+        stages,
+        irregular: irregular_nodes(&grid),
+        quality,
+        warnings,
+        stopped: job.stopped(),
+        grid,
+        ..first
+    })
+}
+
+/// Stage `s` of all parts as one.
+fn stage(
+    s: usize,
+    runs: &[Run],
+    surface: &Surface,
+    offsets: &[Offset],
+    length: f64,
+) -> Result<StageReport> {
+    let stages: Vec<&StageReport> = runs.iter().filter_map(|run| run.stages.get(s)).collect();
+    let grids: Option<Vec<&Grid>> = stages.iter().map(|stage| stage.grid.as_ref()).collect();
+    let grid = match grids.filter(|grids| grids.len() == runs.len()) {
+        Some(grids) => Some(side_by_side(&grids, offsets)?),
+        None => None,
+    };
+    let options = &runs[0].recipe.measure;
+    let notes = (1..).zip(&stages).flat_map(|(number, stage)| {
+        stage.notes.iter().map(move |note| format!("part {number}: {note}"))
+    });
+    Ok(StageReport {
+        name: stages[0].name,
+        seconds: stages.iter().map(|stage| stage.seconds).sum(),
+        converged: stages.iter().all(|stage| stage.converged),
+        quality: grid.as_ref().map(|grid| measure(grid, surface, length, options)),
+        notes: notes.collect(),
+        grid,
+    })
+}
+
+/// Grids of parts as one grid, each with its place in the surface of all parts.
+fn side_by_side(grids: &[&Grid], offsets: &[Offset]) -> Result<Grid> {
+    let (mut places, mut xyz, mut panels) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut features, mut pinned) = (Vec::new(), Vec::new());
+    for (grid, offset) in grids.iter().zip(offsets) {
+        let first = xyz.len() as u32;
+        let mesh = &grid.mesh;
+        panels.extend(mesh.triangles().map(|t| t.map(|v| v + first)));
+        features.extend(
+            mesh.edges()
+                .filter(|&(a, b)| mesh.is_feature_edge(a, b))
+                .map(|(a, b)| (a + first, b + first)),
+        );
+        pinned.extend(mesh.vertices().filter(|&v| mesh.is_pinned(v)).map(|v| v + first));
+        places.extend(grid.places.iter().map(|p| place(p, offset)));
+        xyz.extend(&grid.xyz);
+    }
+    let mut mesh = Mesh::from_triangles(xyz.len(), &panels)?;
+    for (a, b) in features {
+        mesh.mark_feature(a, b)?;
+    }
+    for v in pinned {
+        mesh.pin(v, true);
+    }
+    Ok(Grid { mesh, places, xyz })
+}
+
+fn place(place: &Place, offset: &Offset) -> Place {
+    let on = |at: &ChainPoint, first: u32| ChainPoint { chain: at.chain + first, ..*at };
+    match place {
+        Place::Interior(p) => Place::Interior(offset.point(p)),
+        Place::Fixed(p) => Place::Fixed(offset.point(p)),
+        Place::Boundary(at) => Place::Boundary(on(at, offset.loops)),
+        Place::Corner(at) => Place::Corner(on(at, offset.loops)),
+        Place::Feature(at) => Place::Feature(on(at, offset.features)),
+    }
+}
