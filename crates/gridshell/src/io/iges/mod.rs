@@ -1,9 +1,9 @@
 //! IGES files (version 5.3, fixed ASCII form): trimmed surfaces (144, 143), boundary representations (186, 514) and
 //! surfaces that stand alone, as exact splines.
 //!
-//! [`records`] sorts the lines, [`global`] and [`directory`] read what their sections say, [`tokens`] splits
-//! parameters; [`curves`] and [`surfaces`] make splines of entities; [`loops`], [`trimmed`] and [`shells`] make faces
-//! of them; [`roots`] says which entities stand for themselves. What cannot be read is left out and noted by its
+//! `records` sorts the lines, `global` and `directory` read what their sections say, `tokens` splits
+//! parameters; `curves` and `surfaces` make splines of entities; `loops`, `trimmed` and `shells` make faces
+//! of them; `roots` says which entities stand for themselves. What cannot be read is left out and noted by its
 //! directory number ("D17") and line. Counts are held against what the file holds before anything is set aside, and
 //! all work is counted, so a file that is wrong ends in an error, not in a hang.
 

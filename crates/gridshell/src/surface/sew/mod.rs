@@ -1,9 +1,9 @@
 //! Sewing: faces that only touch are given the edges they share.
 //!
 //! An edge that a single loop uses is *naked*. Naked edges are split where ends of others lie on them
-//! ([`split`]), pieces that run alongside each other are paired ([`pair`]), and each pair becomes one edge
-//! ([`join`]). Only pairs join vertices, so faces that touch in a point stay apart. What stays naked though another
-//! edge runs close by is told ([`facing`]). Nothing depends on how finely the model is sampled later.
+//! (`split`), pieces that run alongside each other are paired (`pair`), and each pair becomes one edge
+//! (`join`). Only pairs join vertices, so faces that touch in a point stay apart. What stays naked though another
+//! edge runs close by is told (`facing`). Nothing depends on how finely the model is sampled later.
 //!
 //! The shared edge keeps the curve of one of its two faces: the other face is as far from it as the gap was.
 
