@@ -11,7 +11,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 /// A few vertices.
-pub type Few = SmallVec<[u32; 48]>;
+pub type Few = SmallVec<[u32; 80]>;
 
 /// A grid being regularized.
 #[derive(Clone)]
