@@ -1,7 +1,6 @@
 //! A surface that is a triangle mesh and nothing more: each triangle stays as it is.
 
 use super::chain::boundary_loops;
-use super::track::Tracks;
 use super::{Carrier, Surface};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -14,18 +13,6 @@ impl Surface {
         let area = (0..carrier.triangles.len() as u32).map(|t| carrier.triangle_area(t)).sum();
         // No boundary turns by more than a half turn.
         let loops = boundary_loops(&carrier, PI, |_, _| None);
-        Surface {
-            name: name.to_owned(),
-            carrier,
-            loops,
-            features: Vec::new(),
-            fixed: Vec::new(),
-            shapes: Vec::new(),
-            curves: Vec::new(),
-            scale: Vec::new(),
-            direction: Vec::new(),
-            area,
-            tracks: Tracks::new(),
-        }
+        Surface::bare(name.to_owned(), carrier, loops, area)
     }
 }

@@ -98,6 +98,23 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// A carrier and its loops, with no patches behind it and nothing fixed or wanted.
+    fn bare(name: String, carrier: Carrier, loops: Vec<Chain>, area: f64) -> Surface {
+        Surface {
+            name,
+            carrier,
+            loops,
+            features: Vec::new(),
+            fixed: Vec::new(),
+            shapes: Vec::new(),
+            curves: Vec::new(),
+            scale: Vec::new(),
+            direction: Vec::new(),
+            area,
+            tracks: Tracks::new(),
+        }
+    }
+
     /// V - E + F of the carrier.
     pub fn euler_characteristic(&self) -> i64 {
         let faces = self.carrier.triangles.len();

@@ -224,6 +224,41 @@ impl NurbsSurface {
     }
 }
 
+/// From the basis functions of degree `d - 1` over the span that begins at `span` to those of degree `d`.
+pub(super) fn raise(
+    value: &mut [f64; MAX_DEGREE + 1],
+    knots: &[f64],
+    span: usize,
+    d: usize,
+    t: f64,
+) {
+    let mut carried = 0.0;
+    for r in 0..d {
+        let (right, left) = (knots[span + r + 1], knots[span + 1 + r - d]);
+        let share = value[r] / (right - left);
+        value[r] = carried + (right - t) * share;
+        carried = (t - left) * share;
+    }
+    value[d] = carried;
+}
+
+/// Derivatives of the basis functions of degree `d`, from those of degree `d - 1` or their own derivatives:
+/// N' = p (N_(i, p-1) / (k_(i+p) - k_i) - N_(i+1, p-1) / (k_(i+p+1) - k_(i+1))).
+pub(super) fn raised_slope(
+    value: &[f64; MAX_DEGREE + 1],
+    knots: &[f64],
+    span: usize,
+    d: usize,
+) -> [f64; MAX_DEGREE + 1] {
+    let mut slope = [0.0; MAX_DEGREE + 1];
+    for r in 0..d {
+        let share = d as f64 * value[r] / (knots[span + r + 1] - knots[span + 1 + r - d]);
+        slope[r] -= share;
+        slope[r + 1] += share;
+    }
+    slope
+}
+
 /// The basis functions that are not zero at one parameter, and their derivatives.
 pub(super) struct Basis {
     /// Index of the first control point that counts.
@@ -247,22 +282,9 @@ impl Basis {
         value[0] = 1.0;
         for d in 1..=degree {
             if d == degree {
-                // N' = p (N_(i, p-1) / (k_(i+p) - k_i) - N_(i+1, p-1) / (k_(i+p+1) - k_(i+1))).
-                for r in 0..d {
-                    let width = knots[span + r + 1] - knots[span + 1 + r - d];
-                    let share = d as f64 * value[r] / width;
-                    slope[r] -= share;
-                    slope[r + 1] += share;
-                }
+                slope = raised_slope(&value, knots, span, d);
             }
-            let mut carried = 0.0;
-            for r in 0..d {
-                let (right, left) = (knots[span + r + 1], knots[span + 1 + r - d]);
-                let share = value[r] / (right - left);
-                value[r] = carried + (right - t) * share;
-                carried = (t - left) * share;
-            }
-            value[d] = carried;
+            raise(&mut value, knots, span, d, t);
         }
         Basis { first: span - degree, value, slope }
     }
@@ -326,6 +348,22 @@ fn size(points: &[DVec3]) -> f64 {
     let lo = points.iter().fold(DVec3::MAX, |a, &b| a.min(b));
     let hi = points.iter().fold(DVec3::MIN, |a, &b| a.max(b));
     lo.distance(hi)
+}
+
+/// An eighth of the unit sphere; its pole is the whole side v = 1.
+#[cfg(test)]
+pub(super) fn octant() -> NurbsSurface {
+    const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
+    let arc = [(1.0, 0.0, 1.0), (1.0, 1.0, HALF), (0.0, 1.0, 1.0)];
+    let (mut points, mut weights) = (Vec::new(), Vec::new());
+    for (x, y, wu) in arc {
+        for (rho, z, wv) in arc {
+            points.push(DVec3::new(x * rho, y * rho, z));
+            weights.push(wu * wv);
+        }
+    }
+    let knots = || vec![0., 0., 0., 1., 1., 1.];
+    NurbsSurface::new([2, 2], [knots(), knots()], [3, 3], points, weights).expect("a patch")
 }
 
 #[cfg(test)]

@@ -90,21 +90,7 @@ impl OffsetSurface {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::FRAC_1_SQRT_2 as HALF;
-
-    /// An eighth of the unit sphere; its pole is the whole side v = 1.
-    fn octant() -> NurbsSurface {
-        let arc = [(1.0, 0.0, 1.0), (1.0, 1.0, HALF), (0.0, 1.0, 1.0)];
-        let (mut points, mut weights) = (Vec::new(), Vec::new());
-        for (x, y, wu) in arc {
-            for (rho, z, wv) in arc {
-                points.push(DVec3::new(x * rho, y * rho, z));
-                weights.push(wu * wv);
-            }
-        }
-        let knots = || vec![0., 0., 0., 1., 1., 1.];
-        NurbsSurface::new([2, 2], [knots(), knots()], [3, 3], points, weights).unwrap()
-    }
+    use crate::surface::nurbs::octant;
 
     #[test]
     fn offset_of_a_sphere_is_a_sphere_with_its_pole() {

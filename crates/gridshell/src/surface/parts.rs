@@ -1,6 +1,5 @@
 //! The parts of a model: faces that hang together by shared edges. And surfaces laid side by side again.
 
-use super::track::Tracks;
 use super::{Brep, Carrier, Chain, Model, PolygonMesh, Surface, SurfacePoint};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -191,19 +190,7 @@ impl Surface {
         let walled = parts.iter().any(|s| !s.carrier.walls.is_empty());
         let scaled = parts.iter().any(|s| !s.scale.is_empty());
         let directed = parts.iter().any(|s| !s.direction.is_empty());
-        let mut all = Surface {
-            name,
-            carrier: Carrier::default(),
-            loops: Vec::new(),
-            features: Vec::new(),
-            fixed: Vec::new(),
-            shapes: Vec::new(),
-            curves: Vec::new(),
-            scale: Vec::new(),
-            direction: Vec::new(),
-            area: 0.0,
-            tracks: Tracks::new(),
-        };
+        let mut all = Surface::bare(name, Carrier::default(), Vec::new(), 0.0);
         for part in parts {
             offsets.push(at);
             let (n, t) = (part.carrier.points.len(), part.carrier.triangles.len());

@@ -4,7 +4,6 @@
 
 use super::chain::boundary_loops;
 use super::ear::split;
-use super::track::Tracks;
 use super::{Carrier, PolygonMesh, Sampling, Surface, cap};
 use crate::error::{Error, Result};
 use glam::DVec3;
@@ -33,19 +32,7 @@ impl PolygonMesh {
         let patch = vec![0; triangles.len()];
         let carrier = Carrier::new(points, triangles, patch, Vec::new());
         let loops = boundary_loops(&carrier, sampling.corner_angle, |_, _| None);
-        Ok(Surface {
-            name: self.name.clone(),
-            carrier,
-            loops,
-            features: Vec::new(),
-            fixed: Vec::new(),
-            shapes: Vec::new(),
-            curves: Vec::new(),
-            scale: Vec::new(),
-            direction: Vec::new(),
-            area,
-            tracks: Tracks::new(),
-        })
+        Ok(Surface::bare(self.name.clone(), carrier, loops, area))
     }
 
     /// All faces in triangles. A face whose diagonal would double an edge of the mesh is split from its

@@ -162,29 +162,12 @@ impl Seeds {
 
 #[cfg(test)]
 mod tests {
-    use super::super::nurbs::{NurbsCurve, NurbsSurface};
+    use super::super::nurbs::{NurbsCurve, NurbsSurface, octant};
     use super::*;
-    use std::f64::consts::FRAC_1_SQRT_2 as HALF;
-
-    /// An eighth of the unit sphere; its pole is the whole side v = 1.
-    fn octant() -> Shape {
-        let arc = [(1.0, 0.0, 1.0), (1.0, 1.0, HALF), (0.0, 1.0, 1.0)];
-        let (mut points, mut weights) = (Vec::new(), Vec::new());
-        for (x, y, wu) in arc {
-            for (rho, z, wv) in arc {
-                points.push(DVec3::new(x * rho, y * rho, z));
-                weights.push(wu * wv);
-            }
-        }
-        let knots = || vec![0., 0., 0., 1., 1., 1.];
-        Shape::Nurbs(
-            NurbsSurface::new([2, 2], [knots(), knots()], [3, 3], points, weights).unwrap(),
-        )
-    }
 
     #[test]
     fn foot_on_a_sphere_lies_on_the_ray_from_its_centre() {
-        let shape = octant();
+        let shape = Shape::Nurbs(octant());
         let start = DVec2::new(0.4, 0.4);
         for target in [(2.0, 1.0, 0.5), (0.3, 0.2, 0.4), (0.1, 0.1, 5.0), (1e-4, 2e-4, 1.0)] {
             let target = DVec3::from(target);
@@ -196,7 +179,7 @@ mod tests {
 
     #[test]
     fn foot_stays_inside_the_domain() {
-        let shape = octant();
+        let shape = Shape::Nurbs(octant());
         let (uv, foot) = shape.project(DVec2::new(0.9, 0.1), DVec3::new(2.0, -1.0, -3.0));
         assert!(uv.length() < 1e-12, "{uv}");
         assert!(foot.distance(DVec3::X) < 1e-12);
@@ -204,7 +187,7 @@ mod tests {
 
     #[test]
     fn projection_from_the_pole_gets_away_and_back() {
-        let shape = octant();
+        let shape = Shape::Nurbs(octant());
         let (_, foot) = shape.project(DVec2::new(0.5, 1.0), DVec3::new(1.0, 1.0, 1.0));
         assert!(foot.distance(DVec3::splat(1.0 / 3.0_f64.sqrt())) < 1e-7, "{foot}");
         let (_, foot) = shape.project(DVec2::new(0.2, 0.5), DVec3::Z * 1.5);
@@ -229,8 +212,13 @@ mod tests {
     #[test]
     fn foot_on_a_curve_keeps_to_its_piece() {
         let points = vec![DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
-        let arc =
-            NurbsCurve::new(2, vec![0., 0., 0., 1., 1., 1.], points, vec![1.0, HALF, 1.0]).unwrap();
+        let arc = NurbsCurve::new(
+            2,
+            vec![0., 0., 0., 1., 1., 1.],
+            points,
+            vec![1.0, std::f64::consts::FRAC_1_SQRT_2, 1.0],
+        )
+        .unwrap();
         let curve = Curve::Nurbs(arc);
         let target = DVec3::new(0.9, 1.2, 0.3);
         let (t, foot) = curve.project(0.1, [0.0, 1.0], target);

@@ -1,6 +1,6 @@
 //! Second derivatives of NURBS surfaces (Piegl & Tiller, *The NURBS Book*, sections 2.3 and 4.4).
 
-use super::nurbs::{Basis, MAX_DEGREE, NurbsSurface, into_domain};
+use super::nurbs::{Basis, MAX_DEGREE, NurbsSurface, into_domain, raise, raised_slope};
 use super::shape::Jet;
 use glam::{DVec2, DVec3};
 
@@ -70,24 +70,10 @@ fn second(knots: &[f64], degree: usize, span: usize, t: f64) -> [f64; MAX_DEGREE
     }
     value[0] = 1.0;
     for d in 1..=degree - 2 {
-        let mut carried = 0.0;
-        for r in 0..d {
-            let (right, left) = (knots[span + r + 1], knots[span + 1 + r - d]);
-            let share = value[r] / (right - left);
-            value[r] = carried + (right - t) * share;
-            carried = (t - left) * share;
-        }
-        value[d] = carried;
+        raise(&mut value, knots, span, d, t);
     }
-    // Each derivative raises the degree by one: N' = p (N_(i, p-1) / width_i - N_(i+1, p-1) / width_(i+1)).
     for d in [degree - 1, degree] {
-        let mut slope = [0.0; MAX_DEGREE + 1];
-        for r in 0..d {
-            let share = d as f64 * value[r] / (knots[span + r + 1] - knots[span + 1 + r - d]);
-            slope[r] -= share;
-            slope[r + 1] += share;
-        }
-        value = slope;
+        value = raised_slope(&value, knots, span, d);
     }
     value
 }
