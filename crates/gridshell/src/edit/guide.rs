@@ -44,7 +44,7 @@ pub(super) fn add(editor: &Editor, points: &[[f64; 3]]) -> Result<Outcome, Refus
     let mut bench = Workbench::new(&base);
     let mut changed = Vec::new();
     for chain in new {
-        changed.extend(bench.lay_row(chain)?);
+        changed.extend(bench.lay_row(chain, &editor.surface)?);
     }
     finish(editor, &base, bench, changed)
 }

@@ -3,7 +3,7 @@
 use super::Refusal;
 use super::workbench::Workbench;
 use crate::grid::Place;
-use crate::surface::ChainPoint;
+use crate::surface::{ChainPoint, Surface};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,12 +20,13 @@ const SWEEPS: usize = 30;
 
 impl Workbench<'_> {
     /// Bring the row of nodes that is nearest to open feature `chain` onto it, and let the nodes round it give way;
-    /// gives all that may have changed.
-    pub(super) fn lay_row(&mut self, chain: u32) -> Result<Vec<u32>, Refusal> {
+    /// gives all that may have changed. `before` is the
+    /// surface as it was: where its features are met, one of their nodes comes to stand.
+    pub(super) fn lay_row(&mut self, chain: u32, before: &Surface) -> Result<Vec<u32>, Refusal> {
         let surface = &*self.editor.surface;
         let feature = &surface.features[chain as usize];
         let ends = [0.0, feature.length()].map(|s| feature.xyz(&surface.carrier, s));
-        let [first, last] = [self.end_node(ends[0])?, self.end_node(ends[1])?];
+        let [first, last] = [self.end_node(ends[0], before)?, self.end_node(ends[1], before)?];
         let row = self.row(chain, first, last).filter(|_| first != last).ok_or_else(|| {
             Refusal::new(
                 "no row of free nodes runs along the guide",
@@ -53,7 +54,7 @@ impl Workbench<'_> {
     }
 
     /// The node that is or comes to stand at this end of a feature.
-    fn end_node(&mut self, at: DVec3) -> Result<u32, Refusal> {
+    fn end_node(&mut self, at: DVec3, before: &Surface) -> Result<u32, Refusal> {
         let surface = &*self.editor.surface;
         let same = SAME * self.editor.edge_length;
         let carrier = &surface.carrier;
@@ -69,12 +70,14 @@ impl Workbench<'_> {
             (None, Some(c)) => Place::Corner(c),
             (None, None) => unreachable!("a feature ends at fixed nodes"),
         };
+        let met = before.nearest_on_features(at).is_some_and(|(_, off)| off <= same);
         let grid = &mut self.state.grid;
         let fits = |v: &u32| match grid.places[*v as usize] {
             Place::Corner(_) | Place::Fixed(_) => grid.xyz[*v as usize].distance(at) <= same,
             Place::Boundary(_) => matches!(place, Place::Corner(_)) && !grid.mesh.is_pinned(*v),
-            Place::Interior(_) | Place::Feature(_) => {
-                matches!(place, Place::Fixed(_)) && !grid.mesh.is_pinned(*v)
+            Place::Feature(_) => met && !grid.mesh.is_pinned(*v),
+            Place::Interior(_) => {
+                !met && matches!(place, Place::Fixed(_)) && !grid.mesh.is_pinned(*v)
             }
         };
         let apart = |v: &u32| grid.xyz[*v as usize].distance(at);
