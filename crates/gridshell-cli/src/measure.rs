@@ -29,7 +29,7 @@ struct Document {
 
 pub fn run(args: &Measure) -> Result<Outcome, Failure> {
     // Where both are given, the unit is the surface's: our grids state their own.
-    let opening = Opening { sew: args.sew, unit: args.units };
+    let opening = args.reading.opening();
     let of_grid = if args.surface.is_some() { Opening::default() } else { opening.clone() };
     let mesh = io::read_mesh_with(&args.grid, &of_grid).map_err(Failure::of_input)?;
     let panels = panels(&mesh).map_err(|m| Failure::input(&args.grid, m))?;
