@@ -43,6 +43,10 @@ const GRID_FORMATS: &str = "obj, ply, stl, off";
 /// Extensions of all formats that hold a surface.
 const SURFACE_FORMATS: &str = "step, stp, 3dm, iges, igs, obj, ply, stl, off, gltf, glb, json";
 
+/// Roofs are between these sizes, metres.
+const LEAST_SIZE: f64 = 0.5;
+const MOST_SIZE: f64 = 1e4;
+
 /// How a file is to be opened.
 #[derive(Clone, Debug, Default)]
 pub struct Opening {
@@ -100,11 +104,23 @@ pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
         _ => Err(unknown(path, SURFACE_FORMATS)),
     }?;
     refuse_unit(path, opening)?;
+    let odd = odd_size(model.size());
     if let Model::Brep(brep) = &mut model {
         snap(brep);
         sew(brep, opening.sew)?;
+        brep.notes.extend(odd);
     }
     Ok(model)
+}
+
+/// A word on a model that no one builds at its size: its file most likely states the wrong unit.
+fn odd_size(size: f64) -> Option<String> {
+    (size < LEAST_SIZE || size > MOST_SIZE).then(|| {
+        format!(
+            "the model is {size:.3e} m across by the unit that its file states; if it should not be, mend the unit \
+             in the program that wrote it"
+        )
+    })
 }
 
 #[cfg(feature = "3dm")]

@@ -5,9 +5,9 @@ use super::nurbs::{NurbsCurve, NurbsSurface};
 use super::{Brep, Curve, Shape, size};
 use glam::DVec3;
 
-/// Steps in the size of the model: a tenth of a nanometre for a roof of a hundred metres, and a thousand times
-/// what a conversion leaves uncertain.
-const STEPS: f64 = (1u64 << 40) as f64;
+/// Steps in the size of the model: a quarter of a micrometre for a roof of 60 metres, and what files of twelve digits
+/// agree in.
+const STEPS: f64 = (1u64 << 28) as f64;
 
 /// Round points, weights and ranges of `brep` to lattices so fine that nobody could build them.
 pub fn snap(brep: &mut Brep) {
