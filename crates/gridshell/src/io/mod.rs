@@ -32,7 +32,7 @@ pub use unit::LengthUnit;
 pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
-use crate::surface::{Model, PolygonMesh, Source, builtin, sew, snap};
+use crate::surface::{Model, PolygonMesh, Source, builtin, sew};
 use soup::Soup;
 use std::path::Path;
 
@@ -106,7 +106,6 @@ pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
     refuse_unit(path, opening)?;
     let odd = odd_size(model.size());
     if let Model::Brep(brep) = &mut model {
-        snap(brep);
         sew(brep, opening.sew)?;
         brep.notes.extend(odd);
     }

@@ -41,7 +41,6 @@ pub mod section;
 pub mod sew;
 pub mod shape;
 mod size;
-mod snap;
 pub mod source;
 mod stretch;
 pub mod tessellate;
@@ -62,7 +61,6 @@ pub use offset::OffsetSurface;
 pub use ruler::Ruler;
 pub use sew::{Sewing, sew};
 pub use shape::Shape;
-pub use snap::snap;
 pub use source::{Object, Source, Unit};
 pub use tessellate::tessellate;
 
