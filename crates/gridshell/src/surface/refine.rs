@@ -124,7 +124,7 @@ impl<'a> Web<'a> {
         let mut open: Vec<(u32, u8)> =
             (0..self.triangles.len() as u32).flat_map(|t| [(t, 0), (t, 1), (t, 2)]).collect();
         // Every flip betters the least angle, so this ends; the bound guards against rounding.
-        let mut left = 8 * self.triangles.len() + 1000;
+        let mut left = 60 * self.triangles.len() + 1000;
         while let Some((t, k)) = open.pop() {
             if left == 0 {
                 break;
