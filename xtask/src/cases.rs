@@ -51,8 +51,11 @@ impl Told {
     }
 }
 
-/// Run all cases of `folder`, or those whose file begins with one of `names`.
-pub fn run(folder: &Path, names: &[&str]) -> Result<(), String> {
+/// Run all cases of `folder`, or those whose file begins with one of the `words`; `--draft` among them makes quick
+/// grids.
+pub fn run(folder: &Path, words: &[&str]) -> Result<(), String> {
+    let (draft, names): (Vec<&str>, Vec<&str>) = words.iter().partition(|&&w| w == "--draft");
+    let effort = if draft.is_empty() { "standard" } else { "draft" };
     let table = fs::read_to_string(folder.join("README.md"))
         .map_err(|e| format!("{}: {e}", folder.join("README.md").display()))?;
     let gridshell = build::gridshell()?;
@@ -62,7 +65,8 @@ pub fn run(folder: &Path, names: &[&str]) -> Result<(), String> {
     for case in cases.iter().filter(|c| !c.file.ends_with('/')) {
         println!(
             "{}",
-            measure(&gridshell, folder, case).unwrap_or_else(|e| format!("{:26} {e}", case.file))
+            measure(&gridshell, folder, case, effort)
+                .unwrap_or_else(|e| format!("{:26} {e}", case.file))
         );
     }
     for case in cases.iter().filter(|c| c.file.ends_with('/')) {
@@ -119,7 +123,7 @@ fn names(cell: &str) -> Vec<String> {
     names
 }
 
-fn measure(gridshell: &Path, folder: &Path, case: &Case) -> Result<String, String> {
+fn measure(gridshell: &Path, folder: &Path, case: &Case, effort: &str) -> Result<String, String> {
     let file = folder.join(&case.file);
     let inspected = watched::run(Command::new(gridshell).args(["inspect", "--json"]).arg(&file))?;
     let Some(edge_length) = case.edge_length else {
@@ -138,6 +142,8 @@ fn measure(gridshell: &Path, folder: &Path, case: &Case) -> Result<String, Strin
         "--part",
         "all",
         "--json",
+        "--effort",
+        effort,
         "--edge-length",
         &edge_length.to_string(),
         "-o",
