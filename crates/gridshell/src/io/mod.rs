@@ -1,19 +1,34 @@
 //! Readers and writers, one file per format, and surfaces by name.
 
+mod compas;
+mod csv;
+mod digest;
+mod document;
+mod dxf;
 mod file;
+mod format;
+mod gltf;
 mod grid_file;
+mod ifc;
 mod lines;
+mod native;
 mod obj;
 mod off;
+mod opensees;
 mod ply;
+mod saf;
 mod scan;
 pub mod step;
 mod stl;
 mod values;
+mod vtu;
 mod weld;
 
+pub use document::{Document, PlaceRecord, Reference, SCHEMA};
+pub use format::{Format, check_output, write};
 pub use grid_file::GridFile;
 pub use lines::{read_anchors, read_guides};
+pub use native::{read_document, reference};
 pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
@@ -57,6 +72,31 @@ pub fn load(path: &Path) -> Result<Model> {
     }
 }
 
+/// The surface that a grid file refers to, for a grid file at `beside`.
+///
+/// # Errors
+/// As [`open`]; [`Error::Surface`] where the file is no longer the one that the grid was laid on.
+pub fn open_reference(reference: &Reference, beside: &Path) -> Result<Model> {
+    match reference {
+        Reference::Builtin(name) => open(name),
+        Reference::File { path, bytes, fnv1a } => {
+            let near = beside.with_file_name("").join(path);
+            let path = if near.exists() { near } else { path.into() };
+            let now = file::read(&path)?;
+            let same =
+                now.len() as u64 == *bytes && format!("{:016x}", digest::fnv1a_64(&now)) == *fnv1a;
+            if !same {
+                return Err(Error::Surface(format!(
+                    "{}: the surface has changed since the grid in {} was laid on it",
+                    path.display(),
+                    beside.display()
+                )));
+            }
+            load(&path)
+        }
+    }
+}
+
 /// The mesh in a file, by its extension: welded, oriented, without degenerate faces.
 ///
 /// # Errors
@@ -67,33 +107,6 @@ pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
         "ply" => ply::read(path),
         "stl" => stl::read(path),
         "off" => off::read(path),
-        _ => Err(unknown(path, MESH_FORMATS)),
-    }
-}
-
-/// Write a grid in the format of the path's extension. The file appears whole or not at all.
-///
-/// # Errors
-/// [`Error::Io`], or [`Error::Option`] listing the known extensions for an unknown one.
-pub fn write(path: &Path, grid: &GridFile) -> Result<()> {
-    let encode = encoder(path)?;
-    file::replace(path, &encode(grid))
-}
-
-/// Whether [`write()`] knows a format for this path: to be asked before long work.
-///
-/// # Errors
-/// [`Error::Option`] listing the known extensions.
-pub fn check_output(path: &Path) -> Result<()> {
-    encoder(path).map(|_| ())
-}
-
-fn encoder(path: &Path) -> Result<fn(&GridFile) -> Vec<u8>> {
-    match extension(path).as_str() {
-        "obj" => Ok(obj::encode),
-        "ply" => Ok(ply::encode),
-        "stl" => Ok(stl::encode),
-        "off" => Ok(off::encode),
         _ => Err(unknown(path, MESH_FORMATS)),
     }
 }

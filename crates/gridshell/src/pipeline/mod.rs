@@ -17,6 +17,7 @@ use crate::grid::Grid;
 use crate::job::Job;
 use crate::recipe::{Recipe, Symmetry};
 use crate::run::{CandidateReport, Run, SCHEMA, StageReport, SurfaceSummary};
+use crate::schedule::{Schedule, Tolerances};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
 use crate::surface::{Model, Ruler, Sampling, Surface, builtin};
@@ -47,6 +48,18 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         fixed.push("no symmetry was found: the grid has none".into());
     }
     lay(model, &surface, recipe, &size, fixed, job)
+}
+
+/// The surface that [`generate`] lays its grid on, and the wanted member length in metres.
+///
+/// # Errors
+/// As [`generate`].
+pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
+    recipe.validate()?;
+    let Scale { length, nodes } = scale(model, recipe)?;
+    let (surface, _) =
+        wishes::surface(recipe, length, |l| model.surface(&sampling(l, nodes, recipe)))?;
+    Ok((surface, length))
 }
 
 /// Lay a grid on a surface that was made from `model`; `fixed` is what the user should know of what is fixed on it.
@@ -147,6 +160,7 @@ fn finish(
     job: &Job,
 ) -> Result<Run> {
     check(surface, &grid, &quality, length)?;
+    let schedule = Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure));
     Ok(Run {
         schema: SCHEMA,
         version: env!("CARGO_PKG_VERSION"),
@@ -160,9 +174,11 @@ fn finish(
         stages,
         irregular: irregular_nodes(&grid),
         quality,
+        figures: schedule.figures.clone(),
         warnings,
         stopped: job.stopped(),
         grid,
+        schedule,
     })
 }
 

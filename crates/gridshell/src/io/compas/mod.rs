@@ -1,0 +1,3 @@
+//! COMPAS meshes as JSON.
+
+pub(super) mod write;

@@ -1,0 +1,3 @@
+//! glTF 2.0.
+
+pub(super) mod write;
