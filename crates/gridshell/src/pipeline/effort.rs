@@ -11,8 +11,8 @@ use crate::recipe::{Effort, Recipe, RegularizeMethod};
 
 /// Up to so many nodes the recipe's counts hold in full.
 const FULL: f64 = 2000.0;
-/// Below so many nodes there are more candidates, by this factor.
-const SMALL: f64 = 500.0;
+/// Below so many nodes there are more candidates, up to this factor.
+const SMALL: f64 = 1000.0;
 const MORE: f64 = 2.0;
 /// Fewest draws and candidates of a large grid (or the recipe's, where it asks for fewer).
 const LEAST_DRAWS: usize = 16;
@@ -46,7 +46,7 @@ pub fn budgeted(recipe: &Recipe, nodes: f64) -> Recipe {
     }
     let regularize = &mut recipe.regularize;
     // Small grids are cheap, and each of their irregular nodes counts: more candidates.
-    let share = if nodes < SMALL { share * MORE } else { share };
+    let share = share * (SMALL / nodes).clamp(1.0, MORE);
     regularize.candidates = cut(regularize.candidates, share, LEAST_CANDIDATES);
     let last = regularize.heats.last().map_or(1, |h| h[1]).max(1);
     for [through, trials] in &mut regularize.heats {

@@ -150,8 +150,8 @@ fn lattices(
     // A stable sort: equals stay in the order of their draws.
     judged.sort_by(|a, b| b.0.total_cmp(&a.0));
     let candidates = recipe.regularize.candidates.max(1);
-    // Where the chart strains, a lattice does too: bubbles take part.
-    let packed = if chart.strain(surface) > STRAINED { candidates / 4 } else { 0 };
+    // Where the chart strains, a lattice does too: bubbles find better places for the irregular nodes.
+    let packed = if chart.strain(surface) > STRAINED { candidates * 3 / 4 } else { 0 };
     judged.truncate(candidates - packed);
     let notes = vec![format!(
         "lattice start: the best {} of {draws} draws, and {packed} packings",

@@ -64,7 +64,7 @@ impl Local {
             let longest = moves.iter().map(|m: &DVec3| m.length()).fold(0.0, f64::max);
             let scale = (REACH * aim.mean / longest).min(1.0);
             for (&v, d) in region.iter().zip(&moves) {
-                state.grid.slide(state.surface, v as usize, *d * scale);
+                state.slide(v, *d * scale);
             }
         }
     }

@@ -22,8 +22,8 @@ pub struct State<'a> {
     pub length: f64,
     /// Weight of interior vertices, Eq. 13.
     pub lambda: f64,
-    /// Whether the surface bends so sharply that lengths are to follow it.
-    bends: bool,
+    /// Normal of the surface at each node, where it bends so sharply that lengths are to follow it; else empty.
+    normals: Vec<DVec3>,
     /// Adjusted degree minus six of each vertex (0 for removed ones).
     pub deviation: Vec<i32>,
     /// Irregular vertices in use, in no meaning order, and where each stands in that list.
@@ -42,9 +42,11 @@ const UNLISTED: u32 = u32::MAX;
 impl<'a> State<'a> {
     pub fn new(surface: &'a Surface, grid: Grid, length: f64, lambda: f64) -> State<'a> {
         let n = grid.mesh.slots();
+        let bends = !grid.sharp_members(surface).is_empty();
+        let normals = |places: &[Place]| places.iter().map(|p| p.normal(surface)).collect();
         let mut state = State {
             surface,
-            bends: !grid.sharp_members(surface).is_empty(),
+            normals: if bends { normals(&grid.places) } else { Vec::new() },
             grid,
             length,
             lambda,
@@ -142,6 +144,9 @@ impl<'a> State<'a> {
         if self.grid.xyz.len() < n {
             self.grid.xyz.resize(n, DVec3::ZERO);
             self.grid.places.resize(n, place);
+            if self.bends() {
+                self.normals.resize(n, DVec3::ZERO);
+            }
             self.deviation.resize(n, 0);
             self.listed.resize(n, UNLISTED);
             self.mark.resize(n, 0);
@@ -176,6 +181,23 @@ impl<'a> State<'a> {
         self.moved.push((v, self.grid.places[i], self.grid.xyz[i]));
         self.grid.places[i] = place;
         self.grid.xyz[i] = place.xyz(self.surface);
+        self.refresh_normal(v);
+    }
+
+    fn refresh_normal(&mut self, v: u32) {
+        if self.bends() {
+            self.normals[v as usize] = self.grid.places[v as usize].normal(self.surface);
+        }
+    }
+
+    fn bends(&self) -> bool {
+        !self.normals.is_empty()
+    }
+
+    /// Slide node `v` by about `step` (see [`Grid::slide`]). To be remembered first where it may be taken back.
+    pub fn slide(&mut self, v: u32, step: DVec3) {
+        self.grid.slide(self.surface, v as usize, step);
+        self.refresh_normal(v);
     }
 
     fn middle_on_surface(&self, a: u32, b: u32) -> Place {
@@ -247,11 +269,11 @@ impl<'a> State<'a> {
     pub fn member(&self, v: u32, w: u32) -> (DVec3, f64) {
         let chord = self.grid.xyz[w as usize] - self.grid.xyz[v as usize];
         let length = chord.length() / self.scale(v, w);
-        if !self.bends {
+        if !self.bends() {
             return (chord, length);
         }
-        let normal = |v: u32| self.grid.places[v as usize].normal(self.surface);
-        (chord, length * arc_over_chord(normal(v), normal(w)))
+        let [n, m] = [v, w].map(|v| self.normals[v as usize]);
+        (chord, length * arc_over_chord(n, m))
     }
 
     /// Wanted length from `v` to `w` over the mean one.
@@ -280,7 +302,7 @@ impl<'a> State<'a> {
                 if step.length_squared() > reach * reach {
                     step *= reach / step.length();
                 }
-                self.grid.slide(self.surface, v as usize, step);
+                self.slide(v, step);
             }
         }
     }
@@ -297,7 +319,7 @@ impl<'a> State<'a> {
 
     /// Whether the surface turns so much along this member that lines are not held straight across it.
     pub fn is_sharp(&self, a: u32, b: u32) -> bool {
-        self.bends && self.grid.is_sharp(self.surface, a, b)
+        self.bends() && self.grid.is_sharp(self.surface, a, b)
     }
 
     /// Keep the places of these vertices for a possible roll back.
@@ -347,6 +369,7 @@ impl<'a> State<'a> {
         while let Some((v, place, xyz)) = self.moved.pop() {
             self.grid.places[v as usize] = place;
             self.grid.xyz[v as usize] = xyz;
+            self.refresh_normal(v);
             if self.grid.mesh.is_boundary(v) {
                 stale.push(v);
             }
