@@ -19,9 +19,7 @@ pub fn run(args: &Convert) -> Result<Outcome, Failure> {
     let schedule = Schedule::new(grid, surface, &Tolerances::from(&opened.recipe.measure));
     let supports = match supports {
         Some(supports) => supports.nodes(grid, surface)?,
-        // What a grid file says stands, as little as it may be.
-        None if opened.document.seed.is_some() => opened.document.supports.clone(),
-        None => gridshell::structure::Supports::Boundary.nodes(grid, surface)?,
+        None => opened.document.supports.clone(),
     };
     let panels = schedule.panels.nodes.clone();
     let document = Document { supports, panels, ..opened.document };

@@ -7,6 +7,7 @@ use crate::mesh::Mesh;
 use crate::pipeline;
 use crate::recipe::Recipe;
 use crate::run::SurfaceSummary;
+use crate::structure::Supports;
 use crate::surface::{Model, PolygonMesh, Sampling, Surface};
 use glam::DVec3;
 use std::path::Path;
@@ -61,7 +62,8 @@ fn open_mesh(path: &Path, surface: Option<&str>) -> Result<Opened> {
             (grid, surface, Some(summary), Some(io::reference(wanted)?))
         }
     };
-    let document = Document { surface: reference, ..Document::of_grid(&name, &grid) };
+    let supports = Supports::Boundary.nodes(&grid, &surface)?;
+    let document = Document { surface: reference, supports, ..Document::of_grid(&name, &grid) };
     Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes })
 }
 
