@@ -5,27 +5,42 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 /// Neighbours of each point within `radius`, in ascending order. A neighbour counts only if walking along
-/// the chord on the carrier arrives at it, so the other sheet of a fold is no neighbour however near.
+/// the chord on the carrier arrives at it, so the other sheet of a fold is no neighbour however near. Points
+/// that were neighbours in `before` (empty, or lists of the same points a little while ago) are on one sheet.
 pub fn neighbors(
     carrier: &Carrier,
     points: &[SurfacePoint],
     xyz: &[DVec3],
     radius: f64,
+    before: &[Vec<u32>],
 ) -> Vec<Vec<u32>> {
     let cells = Cells::new(xyz, radius);
-    (0..points.len())
+    let mut lists: Vec<Vec<u32>> = (0..points.len())
         .into_par_iter()
         .map(|i| {
+            let known = before.get(i).map_or(&[][..], Vec::as_slice);
             let mut near = cells.near(xyz[i]);
             near.retain(|&j| {
-                j as usize != i
+                j as usize > i
                     && xyz[i].distance_squared(xyz[j as usize]) < radius * radius
-                    && same_sheet(carrier, &points[i], xyz[j as usize], radius)
+                    && (known.binary_search(&j).is_ok()
+                        || same_sheet(carrier, &points[i], xyz[j as usize], radius))
             });
             near.sort_unstable();
             near
         })
-        .collect()
+        .collect();
+    // Each pair was looked at from one side: the other learns of it, the least neighbours first.
+    let mut both: Vec<Vec<u32>> = vec![Vec::new(); points.len()];
+    for (i, list) in lists.iter().enumerate() {
+        for &j in list {
+            both[j as usize].push(i as u32);
+        }
+    }
+    for (all, above) in both.iter_mut().zip(&mut lists) {
+        all.append(above);
+    }
+    both
 }
 
 /// Whether walking from `from` along the straight line to `target` arrives there.

@@ -12,13 +12,13 @@ use crate::recipe::{Effort, Recipe, RegularizeMethod};
 /// Up to so many nodes the recipe's counts hold in full.
 const FULL: f64 = 2000.0;
 /// Below so many nodes there are more candidates, up to this factor.
-const SMALL: f64 = 1000.0;
+const SMALL: f64 = 1200.0;
 const MORE: f64 = 2.0;
 /// Fewest draws and candidates of a large grid (or the recipe's, where it asks for fewer).
 const LEAST_DRAWS: usize = 16;
 const LEAST_CANDIDATES: usize = 5;
 /// Fewest trials of polishing per irregular node, in the last heat.
-const LEAST_POLISH: usize = 60;
+const LEAST_POLISH: usize = 20;
 /// Fewest steps of packing, where a search comes after it.
 const LEAST_STEPS: usize = 300;
 /// Fewest trials of the search per irregular node.
@@ -53,6 +53,11 @@ pub fn budgeted(recipe: &Recipe, nodes: f64) -> Recipe {
         *through = cut(*through, share, 1);
         *trials = cut(*trials, share.min(1.0), LEAST_POLISH * *trials / last);
     }
+    // A heat that lets through as many as the next only polishes twice.
+    let all = std::mem::take(&mut regularize.heats);
+    let through = |k: usize| all.get(k).map(|h| h[0]);
+    regularize.heats =
+        (0..all.len()).filter(|&k| through(k) != through(k + 1)).map(|k| all[k]).collect();
     regularize.trials = cut(regularize.trials, (share * share).min(1.0), LEAST_TRIALS);
     // All trials of one grid may take twice as long as all trials of the smallest full one, and then as the
     // border grows.

@@ -105,7 +105,11 @@ fn lattices(
     job: &Job,
 ) -> Result<Starts> {
     let pieces = pack::boundary::pieces(surface).len() + surface.features.len();
-    let draws = recipe.pack.draws.max(1);
+    let candidates = recipe.regularize.candidates.max(1);
+    // Where the chart strains, a lattice does too: bubbles find better places for the irregular nodes.
+    let packed = if chart.strain(surface) > STRAINED { candidates * 3 / 4 } else { 0 };
+    let draws = recipe.pack.draws.max(1) * (candidates - packed) / candidates;
+    let draws = draws.max(candidates - packed);
     let trial = balance::Options {
         straightness: recipe.relax.straightness,
         border: recipe.border_weight(),
@@ -149,9 +153,6 @@ fn lattices(
     let mut judged: Vec<(f64, Start)> = judged.into_iter().flatten().collect();
     // A stable sort: equals stay in the order of their draws.
     judged.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let candidates = recipe.regularize.candidates.max(1);
-    // Where the chart strains, a lattice does too: bubbles find better places for the irregular nodes.
-    let packed = if chart.strain(surface) > STRAINED { candidates * 3 / 4 } else { 0 };
     judged.truncate(candidates - packed);
     let notes = vec![format!(
         "lattice start: the best {} of {draws} draws, and {packed} packings",

@@ -64,7 +64,8 @@ pub fn settle(
         let largest = scales.iter().copied().fold(0.0, f64::max);
         let strayed = |(p, q): (&DVec3, &DVec3)| p.distance(*q) > 0.5 * SKIN * edge_length;
         if listed_at.is_empty() || xyz.iter().zip(&listed_at).any(strayed) {
-            lists = neighbors(carrier, &feet, &xyz, diameter * largest + SKIN * edge_length);
+            let radius = diameter * largest + SKIN * edge_length;
+            lists = neighbors(carrier, &feet, &xyz, radius, &lists);
             listed_at.clone_from(&xyz);
         }
         bodies.par_iter_mut().enumerate().for_each(|(i, body)| {
