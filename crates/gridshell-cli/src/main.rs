@@ -1,8 +1,10 @@
 //! The command `gridshell`: reads arguments, calls the library, prints. All geometry is in the library.
 
 mod args;
+mod convert;
 mod failure;
 mod generate;
+mod handover;
 mod inspect;
 mod measure;
 mod picture;
@@ -31,6 +33,7 @@ fn main() -> ExitCode {
     let result = match &args.command {
         Command::Generate(args) => generate::run(args),
         Command::Measure(args) => measure::run(args),
+        Command::Convert(args) => convert::run(args),
         Command::Inspect(args) => inspect::run(args),
         Command::Surfaces => surfaces::run(),
     };
