@@ -1,9 +1,11 @@
 //! The command `gridshell`: reads arguments, calls the library, prints. All geometry is in the library.
 
 mod args;
+mod convert;
 mod edit;
 mod failure;
 mod generate;
+mod handover;
 mod inspect;
 mod measure;
 mod picture;
@@ -33,6 +35,7 @@ fn main() -> ExitCode {
         Command::Generate(args) => generate::run(args),
         Command::Measure(args) => measure::run(args),
         Command::Edit(args) => edit::run(args),
+        Command::Convert(args) => convert::run(args),
         Command::Inspect(args) => inspect::run(args),
         Command::Surfaces => surfaces::run(),
     };
