@@ -35,6 +35,7 @@ mod unit;
 mod values;
 mod vtu;
 mod weld;
+mod xlsx;
 
 pub use choice::Choice;
 pub use document::{Document, PlaceRecord, SCHEMA};

@@ -64,10 +64,13 @@ fn array<T: Display>(
     components: usize,
     values: impl IntoIterator<Item = T>,
 ) {
-    let _ = writeln!(
-        out,
-        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">"
-    );
+    // A lone number has no components: some readers would make a column of it.
+    let components = match components {
+        1 => String::new(),
+        n => format!(" NumberOfComponents=\"{n}\""),
+    };
+    let _ =
+        writeln!(out, "<DataArray type=\"{kind}\" Name=\"{name}\"{components} format=\"ascii\">");
     for value in values {
         let _ = write!(out, "{value} ");
     }
