@@ -9,7 +9,6 @@ use gridshell::run::SurfaceSummary;
 use gridshell::schedule::{Figures, Schedule, Tolerances};
 use gridshell::stages::measure::{IrregularNode, Quality, irregular_nodes, measure};
 use serde::Serialize;
-use std::path::Path;
 
 /// The document of `--json`.
 #[derive(Serialize)]
