@@ -24,6 +24,8 @@ pub enum Command {
     Generate(Box<Generate>),
     /// Measure a grid.
     Measure(Measure),
+    /// Edit a grid: replay a log of edits on it, and suggest more.
+    Edit(Edit),
     /// Tell what a file holds: format, units, parts, objects, patches, loops, corners, creases, gaps, what was
     /// skipped, and edge lengths that would suit it.
     Inspect(Inspect),
@@ -125,6 +127,34 @@ pub struct Measure {
     /// Unit of a mesh file that states none, or the wrong one: mm, cm, m, in or ft. Without it metres.
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     pub units: Option<LengthUnit>,
+    /// Print one JSON document on stdout, and nothing else there.
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(ClapArgs)]
+pub struct Edit {
+    /// A grid: a triangle mesh (OBJ, PLY, STL, OFF, glTF, COMPAS JSON).
+    pub grid: PathBuf,
+    /// The edits, as JSON: see docs/editing.md.
+    #[arg(long, value_name = "FILE.json")]
+    pub log: Option<PathBuf>,
+    /// The surface it was laid on: a file or a built-in name. Without it the grid itself is the surface.
+    #[arg(short, long, value_name = "SURFACE")]
+    pub surface: Option<String>,
+    /// Faces that lie within this many metres of each other along their edges are joined; without it, what the file
+    /// or the size of the model suggests.
+    #[arg(long, value_name = "TOL", value_parser = positive, allow_negative_numbers = true)]
+    pub sew: Option<f64>,
+    /// Unit of a mesh file that states none, or the wrong one: mm, cm, m, in or ft. Without it metres.
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    pub units: Option<LengthUnit>,
+    /// Where to write the edited grid (OBJ, PLY, STL, OFF by extension); may be given more than once.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+    /// So many more edits that would better the grid, the best first.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub suggest: usize,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,

@@ -1,6 +1,7 @@
 //! The command `gridshell`: reads arguments, calls the library, prints. All geometry is in the library.
 
 mod args;
+mod edit;
 mod failure;
 mod generate;
 mod inspect;
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
     let result = match &args.command {
         Command::Generate(args) => generate::run(args),
         Command::Measure(args) => measure::run(args),
+        Command::Edit(args) => edit::run(args),
         Command::Inspect(args) => inspect::run(args),
         Command::Surfaces => surfaces::run(),
     };

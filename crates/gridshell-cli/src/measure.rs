@@ -12,6 +12,7 @@ use gridshell::stages::measure::{IrregularNode, Quality, irregular_nodes, measur
 use gridshell::surface::{Model, PolygonMesh, Sampling, Surface};
 use gridshell::{DVec3, io};
 use serde::Serialize;
+use std::path::Path;
 
 /// The document of `--json`.
 #[derive(Serialize)]
@@ -27,42 +28,61 @@ struct Document {
     irregular: Vec<IrregularNode>,
 }
 
-pub fn run(args: &Measure) -> Result<Outcome, Failure> {
+/// A grid from a file, on its surface.
+pub struct Opened {
+    pub name: String,
+    pub grid: Grid,
+    pub surface: Surface,
+    /// Figures of the design surface, where it is known.
+    pub summary: Option<SurfaceSummary>,
+    /// Mean member length, metres.
+    pub edge_length: f64,
+    pub notes: Vec<String>,
+}
+
+/// Open a grid, on the surface of this name or path, or by itself.
+pub fn open(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened, Failure> {
     // Where both are given, the unit is the surface's: our grids state their own.
-    let opening = Opening { sew: args.sew, unit: args.units };
-    let of_grid = if args.surface.is_some() { Opening::default() } else { opening.clone() };
-    let mesh = io::read_mesh_with(&args.grid, &of_grid).map_err(Failure::of_input)?;
-    let panels = panels(&mesh).map_err(|m| Failure::input(&args.grid, m))?;
+    let of_grid = if surface.is_some() { Opening::default() } else { opening.clone() };
+    let mesh = io::read_mesh_with(path, &of_grid).map_err(Failure::of_input)?;
+    let panels = panels(&mesh).map_err(|m| Failure::input(path, m))?;
     let edge_length = mean_side(&mesh.points, &panels);
     let recipe = Recipe::default();
-    let (grid, surface, summary) = match &args.surface {
+    let (grid, surface, summary) = match surface {
         None => {
             let (grid, surface) = Grid::alone(&mesh.name, mesh.points, &panels)?;
             (grid, surface, None)
         }
         Some(name) => {
-            let model = io::open_with(name, &opening).map_err(Failure::of_input)?;
+            let model = io::open_with(name, opening).map_err(Failure::of_input)?;
             let surface = sample(&model, edge_length, &recipe)?;
             let grid = Grid::from_panels(mesh.points, &panels, &surface)?;
             let summary = SurfaceSummary::new(&model, &surface);
             (grid, surface, Some(summary))
         }
     };
-    let quality = measure(&grid, &surface, edge_length, &recipe.measure);
+    Ok(Opened { name: mesh.name, grid, surface, summary, edge_length, notes: mesh.notes })
+}
+
+pub fn run(args: &Measure) -> Result<Outcome, Failure> {
+    let opening = Opening { sew: args.sew, unit: args.units };
+    let opened = open(&args.grid, args.surface.as_deref(), &opening)?;
+    let Opened { name, grid, surface, summary, edge_length, notes } = opened;
+    let quality = measure(&grid, &surface, edge_length, &Recipe::default().measure);
     if args.json {
         say::json(&Document {
             schema: "gridshell.measure/1",
             version: env!("CARGO_PKG_VERSION"),
             units: "m",
-            grid: mesh.name,
+            grid: name,
             surface: summary,
             edge_length,
             irregular: irregular_nodes(&grid),
             quality,
         })?;
     } else {
-        say::result(&table::grid(&mesh.name, &quality))?;
-        mesh.notes.iter().for_each(|n| say::note(&format!("note: {n}")));
+        say::result(&table::grid(&name, &quality))?;
+        notes.iter().for_each(|n| say::note(&format!("note: {n}")));
     }
     Ok(Outcome::Done)
 }
