@@ -50,7 +50,8 @@ fn build(from: &Path, to: &Path) -> Result<Vec<(String, PathBuf)>, String> {
     }
     if !installed {
         let _ = fs::remove_file(&stamp);
-        let mut arguments = vec!["ci", "--no-audit", "--no-fund", "--fetch-retries=0", "--fetch-timeout=20000"];
+        let mut arguments =
+            vec!["ci", "--no-audit", "--no-fund", "--fetch-retries=0", "--fetch-timeout=20000"];
         let offline = env::var("CARGO_NET_OFFLINE").is_ok_and(|v| v == "true");
         arguments.push(if offline { "--offline" } else { "--prefer-offline" });
         npm(to, &arguments)?;
@@ -84,7 +85,9 @@ fn npm(folder: &Path, arguments: &[&str]) -> Result<(), String> {
 
 fn copy(from: &Path, to: &Path) -> io::Result<()> {
     if !from.is_dir() {
-        return fs::create_dir_all(to.parent().unwrap_or(to)).and_then(|()| fs::copy(from, to)).map(|_| ());
+        return fs::create_dir_all(to.parent().unwrap_or(to))
+            .and_then(|()| fs::copy(from, to))
+            .map(|_| ());
     }
     for entry in fs::read_dir(from)? {
         let entry = entry?;

@@ -1,6 +1,7 @@
 //! What must hold before a change is shared.
 
 use crate::build::{cargo, cargo_aloud};
+use crate::page;
 
 /// Format, clippy on all targets, rustdoc.
 pub fn lint() -> Result<(), String> {
@@ -16,6 +17,7 @@ pub fn test() -> Result<(), String> {
     let result = cargo_aloud(&["test", "--workspace", "--no-fail-fast", "--quiet"], |line| {
         sum.add(line);
     });
+    let result = result.and(page::test(&mut |line| sum.add(line)));
     let word = if result.is_ok() { "ok" } else { "FAILED" };
     println!(
         "test result: {word}. {} passed; {} failed; {} ignored",

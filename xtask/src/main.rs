@@ -8,6 +8,7 @@ mod cases;
 mod check;
 mod fuzz;
 mod laid;
+mod page;
 mod picture;
 mod quality;
 mod watched;
@@ -18,7 +19,8 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask CHORE
   lint                    format, clippy and rustdoc, warnings denied
-  test                    lint, then every test, the documentation's included
+  test                    lint, then every test, the documentation's and the studio's page's included; the page wants
+                          npm and Chromium (CHROMIUM, or /usr/bin/chromium)
   cases FOLDER [NAME]...  a grid on every case in FOLDER's README.md table (or the named ones), as a table,
                           and what becomes of its broken files
   bench quality [--cases FOLDER] [--quick] [NAME]...

@@ -10,6 +10,8 @@ mod picture;
 mod progress;
 mod recipe;
 mod say;
+#[cfg(feature = "studio")]
+mod studio;
 mod surfaces;
 mod table;
 
@@ -34,6 +36,8 @@ fn main() -> ExitCode {
         Command::Measure(args) => measure::run(args),
         Command::Edit(args) => edit::run(args),
         Command::Inspect(args) => inspect::run(args),
+        #[cfg(feature = "studio")]
+        Command::Studio(args) => studio::run(args),
         Command::Surfaces => surfaces::run(),
     };
     match result {

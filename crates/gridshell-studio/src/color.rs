@@ -3,11 +3,11 @@
 use crate::frame::Frame;
 use crate::message::{Coloring, Scale, Shows};
 use axum::body::Bytes;
+use glam::DVec3;
 use gridshell::degree::{REGULAR, adjusted_degree};
 use gridshell::grid::Grid;
 use gridshell::merit;
 use gridshell::surface::{Locator, Surface};
-use glam::DVec3;
 
 /// Shares of the values left out at the scale's ends, so that single ones do not wash out the rest.
 const TAIL: f64 = 0.01;
@@ -20,14 +20,36 @@ struct Way {
 
 const WAYS: [Way; 6] = [
     Way { told: ["length", "Length", "m", "Length of each member."], on: "members" },
-    Way { told: ["degree", "Degree", "", "Adjusted degree of each node; 6 is regular."], on: "nodes" },
     Way {
-        told: ["disfluency", "Disfluency", "°", "Angle fluency index of each regular node inside: 0 where lines run straight."],
+        told: ["degree", "Degree", "", "Adjusted degree of each node; 6 is regular."],
         on: "nodes",
     },
-    Way { told: ["shape", "Panel shape", "", "Shape q of each panel: 1 is equilateral."], on: "panels" },
-    Way { told: ["fold", "Fold", "°", "Angle between the panels on both sides of each member."], on: "members" },
-    Way { told: ["deviation", "Deviation", "mm", "Distance of the middle of each panel from the surface."], on: "panels" },
+    Way {
+        told: [
+            "disfluency",
+            "Disfluency",
+            "°",
+            "Angle fluency index of each regular node inside: 0 where lines run straight.",
+        ],
+        on: "nodes",
+    },
+    Way {
+        told: ["shape", "Panel shape", "", "Shape q of each panel: 1 is equilateral."],
+        on: "panels",
+    },
+    Way {
+        told: ["fold", "Fold", "°", "Angle between the panels on both sides of each member."],
+        on: "members",
+    },
+    Way {
+        told: [
+            "deviation",
+            "Deviation",
+            "mm",
+            "Distance of the middle of each panel from the surface.",
+        ],
+        on: "panels",
+    },
 ];
 
 /// All ways.
@@ -103,10 +125,11 @@ fn deviation_mm(grid: &Grid, surface: &Surface) -> Vec<f64> {
 
 fn extent(values: &[f64]) -> [f64; 2] {
     let known = values.iter().copied().filter(|x| x.is_finite());
-    known.fold(None, |e: Option<[f64; 2]>, x| {
-        Some(e.map_or([x, x], |[lo, hi]| [lo.min(x), hi.max(x)]))
-    })
-    .unwrap_or([0.0, 1.0])
+    known
+        .fold(None, |e: Option<[f64; 2]>, x| {
+            Some(e.map_or([x, x], |[lo, hi]| [lo.min(x), hi.max(x)]))
+        })
+        .unwrap_or([0.0, 1.0])
 }
 
 /// The scale's ends: all but the tails, and what a scale of this kind begins with.

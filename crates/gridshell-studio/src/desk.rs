@@ -1,21 +1,21 @@
 //! What is on the desk: the open surface, the runs laid on it, and the one that goes on. All tabs see the same desk.
 
+use crate::editing;
 use crate::form::{self, Values};
 use crate::laying::{self, Going};
 use crate::message::{Event, Fact, Hello, Named, Request, RunSummary, Shows, SurfaceInfo};
 use crate::{color, measures, pick, scene};
 use axum::body::Bytes;
-use crate::editing;
+use glam::DVec3;
 use gridshell::edit::Editor;
 use gridshell::error::{Error, Result};
-use gridshell::stages::measure::{Quality, irregular_nodes, measure};
 use gridshell::grid::Grid;
 use gridshell::inspect::{self, Inspection, Sketch};
 use gridshell::recipe::Recipe;
 use gridshell::run::Run;
+use gridshell::stages::measure::{Quality, irregular_nodes, measure};
 use gridshell::surface::{Model, Surface, builtin};
 use gridshell::{io, pipeline};
-use glam::DVec3;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::sync::{broadcast, watch};
@@ -28,11 +28,13 @@ const BACKLOG: usize = 256;
 pub const ACCEPTS: [&str; 12] =
     ["step", "stp", "iges", "igs", "obj", "ply", "stl", "off", "gltf", "glb", "json", "gridshell"];
 /// Extensions of the files that can be exported.
-const EXPORTS: [(&str, &str); 4] = [
+const EXPORTS: [(&str, &str); 6] = [
     ("obj", "OBJ: panels, and members as lines"),
     ("ply", "PLY: panels"),
     ("stl", "STL: panels"),
     ("off", "OFF: panels"),
+    ("run.json", "JSON: the run document, all measures"),
+    ("edits.json", "JSON: the log of edits, for `gridshell edit`"),
 ];
 /// Largest file that can be opened, bytes.
 pub const UPLOAD_LIMIT: usize = 64 << 20;
@@ -77,7 +79,8 @@ struct Now {
 impl Laid {
     /// Keep what came of run `number`.
     pub fn new(number: u32, run: Run, opened: Arc<Opened>) -> Laid {
-        let now = Now { grid: Arc::new(run.grid.clone()), quality: run.quality.clone(), editor: None };
+        let now =
+            Now { grid: Arc::new(run.grid.clone()), quality: run.quality.clone(), editor: None };
         Laid { number, run, opened, now: Mutex::new(now) }
     }
 
@@ -101,7 +104,10 @@ impl Laid {
         RunSummary {
             run: self.number,
             title: self.run.surface.name.clone(),
-            detail: format!("{:.3} m, {effort}, seed {}{edited}", self.run.edge_length, self.run.seed),
+            detail: format!(
+                "{:.3} m, {effort}, seed {}{edited}",
+                self.run.edge_length, self.run.seed
+            ),
             nodes: now.quality.nodes as u32,
             fluency: now.quality.fluency,
             irregular: (now.quality.irregular.interior + now.quality.irregular.boundary) as u32,
@@ -132,7 +138,8 @@ impl Now {
     fn renew(&mut self, run: &Run) {
         let Some(editor) = &self.editor else { return };
         self.grid = Arc::new(editor.grid().clone());
-        self.quality = measure(&editor.finished(), editor.surface(), run.edge_length, &run.recipe.measure);
+        self.quality =
+            measure(&editor.finished(), editor.surface(), run.edge_length, &run.recipe.measure);
     }
 }
 
@@ -202,8 +209,9 @@ impl Desk {
         let one = |event| Ok(vec![Outgoing::Event(event)]);
         match request {
             Request::Open { name } => {
-                let model = builtin::model(&name)
-                    .ok_or_else(|| Error::Option(format!("there is no built-in surface `{name}`")))?;
+                let model = builtin::model(&name).ok_or_else(|| {
+                    Error::Option(format!("there is no built-in surface `{name}`"))
+                })?;
                 self.put(model)?;
                 Ok(Vec::new())
             }
@@ -230,16 +238,24 @@ impl Desk {
             }
             Request::Select { run, matrix, rectangle } => {
                 let laid = self.laid(run)?;
-                let matrix = matrix.try_into().map_err(|_| Error::Option("a matrix has 16 numbers".into()))?;
+                let matrix = matrix
+                    .try_into()
+                    .map_err(|_| Error::Option("a matrix has 16 numbers".into()))?;
                 let grid = laid.grid();
                 let nodes = pick::within(&grid, &matrix, rectangle);
-                let odd = irregular_nodes(&grid).into_iter().filter(|n| nodes.binary_search(&n.node).is_ok());
+                let odd = irregular_nodes(&grid)
+                    .into_iter()
+                    .filter(|n| nodes.binary_search(&n.node).is_ok());
                 let irregular = odd.count() as u32;
                 one(Event::Selected { run, nodes, irregular })
             }
             Request::Distance { from, to } => {
                 let d = DVec3::from(to) - DVec3::from(from);
-                one(Event::Distance { straight: d.length(), plan: d.truncate().length(), height: d.z })
+                one(Event::Distance {
+                    straight: d.length(),
+                    plan: d.truncate().length(),
+                    height: d.z,
+                })
             }
             Request::Edit { run, edit } => {
                 let edit = editing::parse(edit)?;
@@ -249,10 +265,16 @@ impl Desk {
                 })
             }
             Request::Undo { run } => self.edited(run, |editor| {
-                editor.undo().map(|_| ()).ok_or_else(|| Error::Option("there is nothing to undo".into()))
+                editor
+                    .undo()
+                    .map(|_| ())
+                    .ok_or_else(|| Error::Option("there is nothing to undo".into()))
             }),
             Request::Redo { run } => self.edited(run, |editor| {
-                editor.redo().map(|_| ()).ok_or_else(|| Error::Option("there is nothing to redo".into()))
+                editor
+                    .redo()
+                    .map(|_| ())
+                    .ok_or_else(|| Error::Option("there is nothing to redo".into()))
             }),
             Request::Hover { run, nodes, question } => {
                 let laid = self.laid(run)?;
@@ -314,7 +336,11 @@ impl Desk {
         let (mut low, mut high) = (3.0_f64, 2e6_f64);
         while high - low > 0.5 {
             let middle = f64::midpoint(low, high);
-            if pipeline::length_for(&opened.sketch, middle as usize) > edge_length { low = middle } else { high = middle }
+            if pipeline::length_for(&opened.sketch, middle as usize) > edge_length {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         Ok(Event::Estimate { edge_length, nodes: high.round() as u32 })
     }
@@ -378,21 +404,37 @@ impl Desk {
             return Err(Error::Option(format!("no format `{extension}`")));
         }
         let laid = self.laid(run)?;
-        let folder = tempfile::tempdir().map_err(|e| Error::Option(format!("no folder for the file: {e}")))?;
         let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
         let name: String = laid.run.surface.name.chars().map(plain).collect();
         let name = format!("{name}-{run}.{extension}");
+        let unwritten = |e: &dyn std::fmt::Display| Error::Option(format!("{name}: {e}"));
+        match extension {
+            "run.json" => {
+                let text = serde_json::to_vec_pretty(&laid.run).map_err(|e| unwritten(&e))?;
+                return Ok((name, text));
+            }
+            "edits.json" => {
+                let text = laid.edit(|editor| Ok(editor.log().to_json()))?;
+                return Ok((name, text.into_bytes()));
+            }
+            _ => {}
+        }
+        let folder = tempfile::tempdir().map_err(|e| unwritten(&e))?;
         let path = folder.path().join(&name);
         let now = laid.now();
         let grid = now.editor.as_ref().map_or_else(|| laid.run.grid.clone(), Editor::finished);
         drop(now);
         write(&laid.run, &grid, &path)?;
-        let bytes = std::fs::read(&path).map_err(|e| Error::Option(format!("{name}: {e}")))?;
+        let bytes = std::fs::read(&path).map_err(|e| unwritten(&e))?;
         Ok((name, bytes))
     }
 
     /// Change a run's grid; every tab is told.
-    fn edited(&self, run: u32, work: impl FnOnce(&mut Editor) -> Result<()>) -> Result<Vec<Outgoing>> {
+    fn edited(
+        &self,
+        run: u32,
+        work: impl FnOnce(&mut Editor) -> Result<()>,
+    ) -> Result<Vec<Outgoing>> {
         let laid = self.laid(run)?;
         laid.change(work)?;
         for outgoing in self.look(run, None)? {
@@ -406,8 +448,10 @@ impl Desk {
     fn look(&self, run: u32, stage: Option<&str>) -> Result<Vec<Outgoing>> {
         let laid = self.laid(run)?;
         if let Some(name) = stage {
-            let found = laid.run.stages.iter().find(|s| s.name == name).and_then(|s| s.grid.as_ref());
-            let grid = found.ok_or_else(|| Error::Option(format!("no stage `{name}` with a grid")))?;
+            let found =
+                laid.run.stages.iter().find(|s| s.name == name).and_then(|s| s.grid.as_ref());
+            let grid =
+                found.ok_or_else(|| Error::Option(format!("no stage `{name}` with a grid")))?;
             return Ok(vec![Outgoing::Frame(scene::grid(Shows::Stage, run, grid))]);
         }
         let summary = laid.summary();
@@ -418,7 +462,11 @@ impl Desk {
             None => Event::History { run, done: Vec::new(), undone: Vec::new() },
         };
         let frame = scene::grid(Shows::Grid, run, &now.grid);
-        Ok(vec![Outgoing::Frame(frame), Outgoing::Event(Event::Run(info)), Outgoing::Event(history)])
+        Ok(vec![
+            Outgoing::Frame(frame),
+            Outgoing::Event(Event::Run(info)),
+            Outgoing::Event(history),
+        ])
     }
 
     fn opened(&self) -> Result<Arc<Opened>> {
@@ -462,15 +510,23 @@ fn write(run: &Run, grid: &Grid, path: &Path) -> Result<()> {
     let triangles: Vec<_> = grid.mesh.triangles().collect();
     let edges: Vec<_> = grid.mesh.edges().collect();
     let header = [
-        format!("gridshell {}: grid on {}", run.version, run.surface.name.replace(char::is_control, " ")),
+        format!(
+            "gridshell {}: grid on {}",
+            run.version,
+            run.surface.name.replace(char::is_control, " ")
+        ),
         format!("edge length {} m, seed {}, lengths in metres", run.edge_length, run.seed),
     ];
-    let file = io::GridFile { xyz: &grid.xyz, triangles: &triangles, edges: &edges, header: &header };
+    let file =
+        io::GridFile { xyz: &grid.xyz, triangles: &triangles, edges: &edges, header: &header };
     io::write(path, &file)
 }
 
 fn hello() -> Hello {
-    let named = |name: &str, description: &str| Named { name: name.into(), description: description.into() };
+    let named = |name: &str, description: &str| Named {
+        name: name.into(),
+        description: description.into(),
+    };
     Hello {
         version: env!("CARGO_PKG_VERSION").into(),
         builtins: builtin::ALL.iter().map(|b| named(b.name, b.description)).collect(),
@@ -500,7 +556,10 @@ fn info(inspection: &Inspection, sketch: &Surface) -> SurfaceInfo {
     let mut facts = vec![
         fact("Area", format!("{:.1} m²", surface.area)),
         fact("Size", format!("{:.2} × {:.2} × {:.2} m", size[0], size[1], size[2])),
-        fact("Patches", if surface.patches == 0 { "a mesh".into() } else { surface.patches.to_string() }),
+        fact(
+            "Patches",
+            if surface.patches == 0 { "a mesh".into() } else { surface.patches.to_string() },
+        ),
         fact("Boundary", format!("{} loops, {} corners", surface.loops, surface.corners)),
     ];
     if !inspection.creases.is_empty() {
@@ -511,7 +570,13 @@ fn info(inspection: &Inspection, sketch: &Surface) -> SurfaceInfo {
         .source
         .objects
         .iter()
-        .map(|o| [o.layer.as_str(), o.name.as_str()].into_iter().filter(|s| !s.is_empty()).collect::<Vec<_>>().join(" / "))
+        .map(|o| {
+            [o.layer.as_str(), o.name.as_str()]
+                .into_iter()
+                .filter(|s| !s.is_empty())
+                .collect::<Vec<_>>()
+                .join(" / ")
+        })
         .filter(|s| !s.is_empty())
         .collect();
     objects.dedup();
@@ -519,7 +584,11 @@ fn info(inspection: &Inspection, sketch: &Surface) -> SurfaceInfo {
         name: surface.name.clone(),
         source: known.map_or_else(|| inspection.source.format.clone(), |b| b.description.into()),
         facts,
-        parts: if several { inspection.parts.iter().map(gridshell::run::PartSummary::told).collect() } else { Vec::new() },
+        parts: if several {
+            inspection.parts.iter().map(gridshell::run::PartSummary::told).collect()
+        } else {
+            Vec::new()
+        },
         objects,
         notes: surface.notes.clone(),
         edge_length,

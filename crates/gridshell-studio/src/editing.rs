@@ -42,7 +42,11 @@ pub fn parse(edit: Value) -> Result<Edit> {
 /// The history, to be told.
 pub fn history(run: u32, editor: &Editor) -> Event {
     let told = |(edit, effect): (&Edit, &Effect)| step(editor, edit, &Ok(*effect));
-    Event::History { run, done: editor.history().map(told).collect(), undone: editor.undone().map(told).collect() }
+    Event::History {
+        run,
+        done: editor.history().map(told).collect(),
+        undone: editor.undone().map(told).collect(),
+    }
 }
 
 /// What each operation on a member would do.
@@ -85,11 +89,15 @@ fn told(effect: &Effect) -> String {
 /// The middle of the nodes that an edit names.
 fn place(editor: &Editor, edit: &Edit) -> Option<[f64; 3]> {
     let nodes = match edit {
-        Edit::Flip { nodes } | Edit::Split { nodes } | Edit::Collapse { nodes } | Edit::Drift { nodes, .. } => nodes.to_vec(),
+        Edit::Flip { nodes }
+        | Edit::Split { nodes }
+        | Edit::Collapse { nodes }
+        | Edit::Drift { nodes, .. } => nodes.to_vec(),
         Edit::Move { node, .. } | Edit::Pin { node } | Edit::Unpin { node } => vec![*node],
         _ => return None,
     };
-    let xyz: Option<Vec<glam::DVec3>> = nodes.iter().map(|&v| editor.grid().xyz.get(v as usize).copied()).collect();
+    let xyz: Option<Vec<glam::DVec3>> =
+        nodes.iter().map(|&v| editor.grid().xyz.get(v as usize).copied()).collect();
     let xyz = xyz?;
     Some((xyz.iter().sum::<glam::DVec3>() / xyz.len() as f64).to_array())
 }

@@ -39,14 +39,20 @@ impl Guard {
     ///
     /// # Errors
     /// What is wrong with it, for the log.
-    pub fn check(&self, method: &Method, path: &str, headers: &HeaderMap) -> Result<(), &'static str> {
+    pub fn check(
+        &self,
+        method: &Method,
+        path: &str,
+        headers: &HeaderMap,
+    ) -> Result<(), &'static str> {
         let text = |name| headers.get(name).map(|v| v.to_str().unwrap_or("?"));
         let host = text(header::HOST).unwrap_or_default();
         if !self.hosts.iter().any(|h| h == host) {
             return Err("another Host");
         }
         let origin = text(header::ORIGIN);
-        let own = |origin: &str| self.hosts.iter().any(|h| origin.strip_prefix("http://") == Some(h));
+        let own =
+            |origin: &str| self.hosts.iter().any(|h| origin.strip_prefix("http://") == Some(h));
         if origin.is_some_and(|o| !own(o)) {
             return Err("another Origin");
         }
@@ -81,12 +87,16 @@ mod tests {
     fn only_our_own_page_with_the_token_is_let_in() {
         let guard = Guard::new(8123).unwrap();
         let path = format!("/{}/socket", guard.token());
-        let check = |path: &str, host, origin| guard.check(&Method::GET, path, &headers(host, origin));
+        let check =
+            |path: &str, host, origin| guard.check(&Method::GET, path, &headers(host, origin));
         assert_eq!(check(&path, "127.0.0.1:8123", None), Ok(()));
         assert_eq!(check(&path, "localhost:8123", Some("http://localhost:8123")), Ok(()));
         assert_eq!(check(&path, "evil.example", None), Err("another Host"));
         assert_eq!(check(&path, "127.0.0.1:80", None), Err("another Host"));
-        assert_eq!(check(&path, "127.0.0.1:8123", Some("http://evil.example")), Err("another Origin"));
+        assert_eq!(
+            check(&path, "127.0.0.1:8123", Some("http://evil.example")),
+            Err("another Origin")
+        );
         assert_eq!(check(&path, "127.0.0.1:8123", Some("null")), Err("another Origin"));
         assert_eq!(check("/0000/", "127.0.0.1:8123", None), Err("a wrong token"));
         assert_eq!(check("/", "127.0.0.1:8123", None), Err("a wrong token"));

@@ -64,7 +64,10 @@ impl Drop for End {
         match self.told.take() {
             Some(Ok(run)) => self.desk.ended(run, None),
             Some(Err(message)) => self.desk.ended(None, Some(message)),
-            None => self.desk.ended(None, Some("the run broke off: this is a fault of gridshell, please report it".into())),
+            None => self.desk.ended(
+                None,
+                Some("the run broke off: this is a fault of gridshell, please report it".into()),
+            ),
         }
     }
 }
@@ -90,7 +93,13 @@ fn lay_both(
             return Ok(Some(draft));
         }
     }
-    let next = Progress { run: number + 1, draft: false, stage: "prepare".into(), fraction: 0.0, seconds: 0.0 };
+    let next = Progress {
+        run: number + 1,
+        draft: false,
+        stage: "prepare".into(),
+        fraction: 0.0,
+        seconds: 0.0,
+    };
     *progress.lock().unwrap_or_else(PoisonError::into_inner) = next;
     lay(desk, opened, recipe, job, progress, began, number + 1).map(Some)
 }
@@ -130,7 +139,15 @@ struct Watcher {
 
 impl Watcher {
     fn new(number: u32) -> Watcher {
-        Watcher { number, candidate: 0, heard: None, shown: None, told: None, stage: "", fraction: 0.0 }
+        Watcher {
+            number,
+            candidate: 0,
+            heard: None,
+            shown: None,
+            told: None,
+            stage: "",
+            fraction: 0.0,
+        }
     }
 
     fn see(&mut self, p: &job::Progress, desk: &Desk, progress: &Mutex<Progress>, began: Instant) {

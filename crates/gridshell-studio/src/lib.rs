@@ -96,7 +96,11 @@ impl Studio {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, options.port)).await?;
         let address = listener.local_addr()?;
         let guard = Guard::new(address.port())?;
-        Ok(Studio { listener, address, server: Arc::new(Server { guard, desk, page, log: options.log }) })
+        Ok(Studio {
+            listener,
+            address,
+            server: Arc::new(Server { guard, desk, page, log: options.log }),
+        })
     }
 
     /// The address for the browser, token and all.

@@ -11,7 +11,13 @@ use gridshell::surface::Surface;
 const BINS: usize = 24;
 
 /// All about a run.
-pub fn told(summary: RunSummary, run: &Run, quality: &Quality, grid: &Grid, surface: &Surface) -> RunInfo {
+pub fn told(
+    summary: RunSummary,
+    run: &Run,
+    quality: &Quality,
+    grid: &Grid,
+    surface: &Surface,
+) -> RunInfo {
     RunInfo {
         summary,
         edge_length: run.edge_length,
@@ -39,26 +45,159 @@ fn measures(q: &Quality, edge_length: f64) -> Vec<Measure> {
         });
     };
     let fluency = q.fluency.map_or_else(|| "∞".to_owned(), |f| format!("{f:.2}"));
-    add("Fluency", "fluency", "Fluency Q", fluency, "", "How smoothly lines run; higher is better. Eq. 31.");
-    add("Fluency", "mu", "Irregularity μ", format!("{:.4}", q.mu), "", "Average nodal degree residual, Eq. 27.");
-    add("Fluency", "delta_deg", "Disfluency δ", format!("{:.2}", q.delta_deg), "°", "Mean angle fluency index, Eq. 30.");
-    add("Fluency", "rho", "Regular share ρ", format!("{:.3}", q.rho), "", "Weighted share of regular nodes inside, Eq. 32.");
-    add("Fluency", "irregular", "Irregular nodes", format!("{} + {}", q.irregular.interior, q.irregular.boundary), "", "Inside, and on the boundary.");
-    add("Lengths", "mean", "Mean length", format!("{:.3}", q.edge_length.mean), "m", "Mean length of the members.");
-    add("Lengths", "range", "Shortest, longest", format!("{:.3} – {:.3}", q.edge_length.min, q.edge_length.max), "m", "Least and largest member length.");
-    add("Lengths", "cv", "Spread r", format!("{:.2}", 100.0 * q.edge_length.cv), "%", "Coefficient of variation of the lengths, Eq. 24.");
-    add("Panels", "shape", "Mean shape q", format!("{:.4}", q.shape.mean), "", "1 is equilateral, Eq. 25.");
-    add("Panels", "worst", "Worst shape", format!("{:.3}", q.shape.min), "", "Shape of the worst panel.");
-    add("Panels", "min_angle_deg", "Least angle", format!("{:.1}", q.min_angle_deg), "°", "Least angle of a panel.");
-    add("Panels", "area_ratio", "Area", format!("{:.2}", 100.0 * q.area_ratio), "%", "Area of the panels over that of the surface.");
-    add("Fit", "surface_deviation", "Nodes off the surface", millimetres(q.surface_deviation * edge_length), "mm", "Largest distance of a node to the exact surface.");
-    add("Fit", "boundary_deviation", "Nodes off the boundary", millimetres(q.boundary_deviation * edge_length), "mm", "Largest distance of a boundary node to the exact boundary.");
-    add("Fit", "folded_panels", "Folded panels", q.folded_panels.to_string(), "", "Panels that lie folded back; there should be none.");
-    add("Fit", "bridging_members", "Bridging members", q.bridging_members.to_string(), "", "Members that leap from sheet to sheet; there should be none.");
-    add("Border", "border_shape", "Mean shape q", format!("{:.4}", q.border.shape_mean), "", "Shape of the panels at the border.");
-    add("Border", "border_cv", "Spread r", format!("{:.2}", 100.0 * q.border.edge_length_cv), "%", "Length spread of the members at the border.");
+    add(
+        "Fluency",
+        "fluency",
+        "Fluency Q",
+        fluency,
+        "",
+        "How smoothly lines run; higher is better. Eq. 31.",
+    );
+    add(
+        "Fluency",
+        "mu",
+        "Irregularity μ",
+        format!("{:.4}", q.mu),
+        "",
+        "Average nodal degree residual, Eq. 27.",
+    );
+    add(
+        "Fluency",
+        "delta_deg",
+        "Disfluency δ",
+        format!("{:.2}", q.delta_deg),
+        "°",
+        "Mean angle fluency index, Eq. 30.",
+    );
+    add(
+        "Fluency",
+        "rho",
+        "Regular share ρ",
+        format!("{:.3}", q.rho),
+        "",
+        "Weighted share of regular nodes inside, Eq. 32.",
+    );
+    add(
+        "Fluency",
+        "irregular",
+        "Irregular nodes",
+        format!("{} + {}", q.irregular.interior, q.irregular.boundary),
+        "",
+        "Inside, and on the boundary.",
+    );
+    add(
+        "Lengths",
+        "mean",
+        "Mean length",
+        format!("{:.3}", q.edge_length.mean),
+        "m",
+        "Mean length of the members.",
+    );
+    add(
+        "Lengths",
+        "range",
+        "Shortest, longest",
+        format!("{:.3} – {:.3}", q.edge_length.min, q.edge_length.max),
+        "m",
+        "Least and largest member length.",
+    );
+    add(
+        "Lengths",
+        "cv",
+        "Spread r",
+        format!("{:.2}", 100.0 * q.edge_length.cv),
+        "%",
+        "Coefficient of variation of the lengths, Eq. 24.",
+    );
+    add(
+        "Panels",
+        "shape",
+        "Mean shape q",
+        format!("{:.4}", q.shape.mean),
+        "",
+        "1 is equilateral, Eq. 25.",
+    );
+    add(
+        "Panels",
+        "worst",
+        "Worst shape",
+        format!("{:.3}", q.shape.min),
+        "",
+        "Shape of the worst panel.",
+    );
+    add(
+        "Panels",
+        "min_angle_deg",
+        "Least angle",
+        format!("{:.1}", q.min_angle_deg),
+        "°",
+        "Least angle of a panel.",
+    );
+    add(
+        "Panels",
+        "area_ratio",
+        "Area",
+        format!("{:.2}", 100.0 * q.area_ratio),
+        "%",
+        "Area of the panels over that of the surface.",
+    );
+    add(
+        "Fit",
+        "surface_deviation",
+        "Nodes off the surface",
+        millimetres(q.surface_deviation * edge_length),
+        "mm",
+        "Largest distance of a node to the exact surface.",
+    );
+    add(
+        "Fit",
+        "boundary_deviation",
+        "Nodes off the boundary",
+        millimetres(q.boundary_deviation * edge_length),
+        "mm",
+        "Largest distance of a boundary node to the exact boundary.",
+    );
+    add(
+        "Fit",
+        "folded_panels",
+        "Folded panels",
+        q.folded_panels.to_string(),
+        "",
+        "Panels that lie folded back; there should be none.",
+    );
+    add(
+        "Fit",
+        "bridging_members",
+        "Bridging members",
+        q.bridging_members.to_string(),
+        "",
+        "Members that leap from sheet to sheet; there should be none.",
+    );
+    add(
+        "Border",
+        "border_shape",
+        "Mean shape q",
+        format!("{:.4}", q.border.shape_mean),
+        "",
+        "Shape of the panels at the border.",
+    );
+    add(
+        "Border",
+        "border_cv",
+        "Spread r",
+        format!("{:.2}", 100.0 * q.border.edge_length_cv),
+        "%",
+        "Length spread of the members at the border.",
+    );
     if let Some(off) = q.direction_deviation_deg {
-        add("Fit", "direction", "Off the direction", format!("{off:.1}"), "°", "Mean angle between the wanted direction and the nearest member.");
+        add(
+            "Fit",
+            "direction",
+            "Off the direction",
+            format!("{off:.1}"),
+            "°",
+            "Mean angle between the wanted direction and the nearest member.",
+        );
     }
     for m in &mut all {
         match m.key.as_str() {
@@ -78,7 +217,12 @@ fn millimetres(metres: f64) -> String {
 }
 
 fn histograms(grid: &Grid, surface: &Surface) -> Vec<Histogram> {
-    let ways = [("length", "Member length", "m"), ("shape", "Panel shape q", ""), ("disfluency", "Disfluency", "°"), ("fold", "Fold", "°")];
+    let ways = [
+        ("length", "Member length", "m"),
+        ("shape", "Panel shape q", ""),
+        ("disfluency", "Disfluency", "°"),
+        ("fold", "Fold", "°"),
+    ];
     ways.iter()
         .map(|&(by, title, unit)| histogram(title, unit, &color::values(grid, surface, by)))
         .collect()

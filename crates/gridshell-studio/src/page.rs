@@ -22,7 +22,10 @@ pub struct Page {
 impl Page {
     /// The page built into this program.
     pub fn built_in() -> Page {
-        let file = |&(name, bytes): &(&str, &'static [u8])| File { name: name.into(), bytes: bytes.into() };
+        let file = |&(name, bytes): &(&str, &'static [u8])| File {
+            name: name.into(),
+            bytes: bytes.into(),
+        };
         Page { files: FILES.iter().map(file).collect() }
     }
 
@@ -40,7 +43,8 @@ impl Page {
                     folders.push(path);
                     continue;
                 }
-                let name = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().replace('\\', "/");
+                let name =
+                    path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().replace('\\', "/");
                 files.push(File { name, bytes: std::fs::read(&path)?.into() });
             }
         }
@@ -51,7 +55,8 @@ impl Page {
     pub fn file(&self, name: &str) -> Option<(&'static str, Cow<'static, [u8]>)> {
         let name = if name.is_empty() { "index.html" } else { name };
         let found = self.files.iter().find(|f| f.name == name).map(|f| f.bytes.clone());
-        let missing = (self.files.is_empty() && name == "index.html").then(|| MISSING.as_bytes().into());
+        let missing =
+            (self.files.is_empty() && name == "index.html").then(|| MISSING.as_bytes().into());
         found.or(missing).map(|bytes| (kind(name), bytes))
     }
 }

@@ -1,10 +1,10 @@
 //! What is under the pointer, and what is inside a rectangle of the screen.
 
 use crate::message::{Fact, Picked};
+use glam::{DMat4, DVec3};
 use gridshell::degree::adjusted_degree;
 use gridshell::grid::Grid;
 use gridshell::merit;
-use glam::{DMat4, DVec3};
 
 /// A node is meant rather than a member within this share of the panel's longest side.
 const NEAR_NODE: f64 = 0.28;
@@ -24,12 +24,14 @@ pub fn pick(grid: &Grid, run: u32, question: u32, origin: DVec3, direction: DVec
     };
     let direction = direction.normalize_or_zero();
     let corners = |t: [u32; 3]| t.map(|v| grid.xyz[v as usize]);
-    let hits = grid.mesh.triangles().filter_map(|t| Some((meet(corners(t), origin, direction)?, t)));
+    let hits =
+        grid.mesh.triangles().filter_map(|t| Some((meet(corners(t), origin, direction)?, t)));
     let Some((distance, panel)) = hits.min_by(|a, b| a.0.total_cmp(&b.0)) else { return picked };
     let at = origin + direction * distance;
     let p = corners(panel);
     let side = [0, 1, 2].map(|k| p[k].distance(p[(k + 1) % 3]));
-    let least = |values: [f64; 3]| (0..3).min_by(|&i, &j| values[i].total_cmp(&values[j])).unwrap_or(0);
+    let least =
+        |values: [f64; 3]| (0..3).min_by(|&i, &j| values[i].total_cmp(&values[j])).unwrap_or(0);
     let n = least(p.map(|q| q.distance(at)));
     let m = least([0, 1, 2].map(|k| from_line(at, p[k], p[(k + 1) % 3])));
     let member = [panel[m], panel[(m + 1) % 3]];
@@ -52,12 +54,15 @@ fn facts(grid: &Grid, picked: &Picked, panel: [u32; 3]) -> Vec<Fact> {
         let adjusted = adjusted_degree(mesh, &grid.xyz, v);
         let place = if mesh.is_boundary(v) { "on the boundary" } else { "inside" };
         facts.push(fact("Node", format!("{v}, {place}")));
-        facts.push(fact("Degree", match (mesh.is_boundary(v), adjusted) {
-            (false, 6) => "6, regular".to_owned(),
-            (false, d) => format!("{d}, irregular"),
-            (true, 6) => format!("{} (adjusted 6, regular)", mesh.degree(v)),
-            (true, d) => format!("{} (adjusted {d}, irregular)", mesh.degree(v)),
-        }));
+        facts.push(fact(
+            "Degree",
+            match (mesh.is_boundary(v), adjusted) {
+                (false, 6) => "6, regular".to_owned(),
+                (false, d) => format!("{d}, irregular"),
+                (true, 6) => format!("{} (adjusted 6, regular)", mesh.degree(v)),
+                (true, d) => format!("{} (adjusted {d}, irregular)", mesh.degree(v)),
+            },
+        ));
         if !mesh.is_boundary(v) && adjusted == 6 {
             facts.push(fact("Disfluency", format!("{:.2}°", merit::delta(grid, v).to_degrees())));
         }

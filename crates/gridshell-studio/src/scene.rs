@@ -3,10 +3,10 @@
 use crate::frame::Frame;
 use crate::message::Shows;
 use axum::body::Bytes;
+use glam::DVec3;
 use gridshell::degree::{REGULAR, adjusted_degree};
 use gridshell::grid::Grid;
 use gridshell::surface::{Chain, Surface};
-use glam::DVec3;
 
 /// A surface: its triangles, and its boundaries and creases as lines.
 pub fn surface(surface: &Surface) -> Bytes {

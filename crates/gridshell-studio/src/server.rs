@@ -80,7 +80,10 @@ async fn index(State(server): State<Arc<Server>>) -> Response {
     page_file(&server, "")
 }
 
-async fn file(State(server): State<Arc<Server>>, Path((_, name)): Path<(String, String)>) -> Response {
+async fn file(
+    State(server): State<Arc<Server>>,
+    Path((_, name)): Path<(String, String)>,
+) -> Response {
     page_file(&server, &name)
 }
 
@@ -109,11 +112,17 @@ async fn open(
     };
     let Ok(bytes) = body else {
         let limit = UPLOAD_LIMIT >> 20;
-        return refuse(StatusCode::PAYLOAD_TOO_LARGE, format!("the file is larger than {limit} MB"));
+        return refuse(
+            StatusCode::PAYLOAD_TOO_LARGE,
+            format!("the file is larger than {limit} MB"),
+        );
     };
     let Some(name) = file_name(&name) else {
         let known = ACCEPTS.join(", ");
-        return refuse(StatusCode::UNSUPPORTED_MEDIA_TYPE, format!("only files of these kinds can be opened: {known}"));
+        return refuse(
+            StatusCode::UNSUPPORTED_MEDIA_TYPE,
+            format!("only files of these kinds can be opened: {known}"),
+        );
     };
     let desk = Arc::clone(&server.desk);
     let read = move || -> Result<(), String> {
@@ -136,7 +145,8 @@ fn file_name(name: &str) -> Option<String> {
     let extension = extension.to_ascii_lowercase();
     let plain = |c: char| if c.is_alphanumeric() || "-_ ".contains(c) { c } else { '_' };
     let stem: String = stem.chars().take(80).map(plain).collect();
-    (ACCEPTS.contains(&extension.as_str()) && !stem.trim().is_empty()).then(|| format!("{stem}.{extension}"))
+    (ACCEPTS.contains(&extension.as_str()) && !stem.trim().is_empty())
+        .then(|| format!("{stem}.{extension}"))
 }
 
 #[derive(Deserialize)]
@@ -145,7 +155,10 @@ struct Wanted {
     format: String,
 }
 
-async fn export(State(server): State<Arc<Server>>, Query(Wanted { run, format }): Query<Wanted>) -> Response {
+async fn export(
+    State(server): State<Arc<Server>>,
+    Query(Wanted { run, format }): Query<Wanted>,
+) -> Response {
     let desk = Arc::clone(&server.desk);
     let written = tokio::task::spawn_blocking(move || desk.export(run, &format)).await;
     match written {
@@ -162,7 +175,9 @@ async fn export(State(server): State<Arc<Server>>, Query(Wanted { run, format })
 /// A name as headers have it (RFC 5987).
 fn escaped(name: &str) -> String {
     let plain = |b: u8| b.is_ascii_alphanumeric() || b"-_.".contains(&b);
-    name.bytes().map(|b| if plain(b) { char::from(b).to_string() } else { format!("%{b:02X}") }).collect()
+    name.bytes()
+        .map(|b| if plain(b) { char::from(b).to_string() } else { format!("%{b:02X}") })
+        .collect()
 }
 
 async fn socket(State(server): State<Arc<Server>>, upgrade: WebSocketUpgrade) -> Response {
@@ -182,7 +197,9 @@ async fn converse(mut socket: WebSocket, server: Arc<Server>) {
         while let Some(wish) = waiting.recv().await {
             let desk = Arc::clone(&desk);
             let all = tokio::task::spawn_blocking(move || desk.answer(wish)).await;
-            let all = all.unwrap_or_else(|_| vec![desk::fault("message", "answering broke off: please report it")]);
+            let all = all.unwrap_or_else(|_| {
+                vec![desk::fault("message", "answering broke off: please report it")]
+            });
             for outgoing in all {
                 if answers.send(outgoing).await.is_err() {
                     return;

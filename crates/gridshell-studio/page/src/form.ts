@@ -22,7 +22,9 @@ export class Form {
       if (!group) {
         const open = groups.size === 0;
         group = el("div", { class: "fields" });
-        this.element.append(el("details", { class: "group", open }, [el("summary", {}, [field.group]), group]));
+        this.element.append(
+          el("details", { class: "group", open }, [el("summary", {}, [field.group]), group]),
+        );
         groups.set(field.group, group);
       }
       group.append(this.row(field));
@@ -35,7 +37,9 @@ export class Form {
     if (!(select instanceof HTMLSelectElement)) return;
     const several = parts.map((_, k) => new Option(`Part ${k + 1}`, String(k + 1)));
     const all = new Option("All", "all");
-    select.replaceChildren(...(several.length ? [all, ...several] : [new Option("The only one", "one"), all]));
+    select.replaceChildren(
+      ...(several.length ? [all, ...several] : [new Option("The only one", "one"), all]),
+    );
   }
 
   /** What the surface decides where nothing is given. */

@@ -136,13 +136,14 @@ export class SurfaceLayer {
     this.lines.geometry.setIndex(new BufferAttribute(wholes(frame, "lines"), 1));
   }
 
-  /** Behind a grid the surface is only hinted at. */
-  faint(yes: boolean): void {
+  /** Behind a grid the surface is only hinted at, or just its lines are seen. */
+  veil(behindGrid: boolean, ghost: boolean): void {
     const material = this.mesh.material;
-    material.transparent = yes;
-    material.opacity = yes ? 0.25 : 1;
-    material.depthWrite = !yes;
-    this.mesh.renderOrder = yes ? 2 : 0;
+    this.mesh.visible = !behindGrid || ghost;
+    material.transparent = behindGrid;
+    material.opacity = behindGrid ? 0.4 : 1;
+    material.depthWrite = !behindGrid;
+    this.mesh.renderOrder = behindGrid ? 2 : 0;
   }
 
   dress(theme: Theme, planes: Plane[]): void {
@@ -178,6 +179,7 @@ export class GridLayer {
   private readonly marks = discs(false);
   private frame: Frame | null = null;
   private theme: Theme;
+  private width = 1.6;
 
   constructor(theme: Theme) {
     this.theme = theme;
@@ -209,12 +211,13 @@ export class GridLayer {
     this.lines(gather(xyz, wholes(frame, "members")));
     const odd = wholes(frame, "irregular");
     const excess = floats(frame, "excess");
-    // As in the paper: black where a node has members too many, white where it has too few.
+    // As in the paper: black where a node has too few members, white where it has too many.
     const fill = new Float32Array(3 * odd.length);
-    for (let k = 0; k < odd.length; k++) fill.fill(excess[k]! > 0 ? 0.01 : 1, 3 * k, 3 * k + 3);
+    for (let k = 0; k < odd.length; k++) fill.fill(excess[k]! < 0 ? 0.01 : 1, 3 * k, 3 * k + 3);
     put(this.nodes.geometry, "position", gather(xyz, odd), 3);
     put(this.nodes.geometry, "fill", fill, 3);
-    put(this.nodes.geometry, "size", new Float32Array(odd.length).fill(11), 1);
+    put(this.nodes.geometry, "size", new Float32Array(odd.length).fill(xyz.length > 2400 ? 8.5 : 11), 1);
+    this.width = xyz.length > 2400 ? 1.15 : 1.6;
     if (was !== "live" || frame.shows !== "live") this.plain();
     this.mark([]);
     this.group.visible = true;
@@ -240,7 +243,7 @@ export class GridLayer {
     this.thin.material.vertexColors = false;
     this.thin.material.needsUpdate = true;
     this.wideMaterial.vertexColors = false;
-    this.wideMaterial.linewidth = 1.6;
+    this.wideMaterial.linewidth = this.width;
     this.wideMaterial.needsUpdate = true;
     this.dressParts();
   }
@@ -264,7 +267,7 @@ export class GridLayer {
         this.wide.geometry.setColors(colors);
         this.wideMaterial.vertexColors = true;
         this.wideMaterial.color.set("#ffffff");
-        this.wideMaterial.linewidth = 3;
+        this.wideMaterial.linewidth = this.width + 1.4;
         this.wideMaterial.needsUpdate = true;
       } else {
         put(this.thin.geometry, "color", colors, 3);
@@ -299,7 +302,10 @@ export class GridLayer {
   dress(theme: Theme, planes: Plane[]): void {
     this.theme = theme;
     for (const m of [this.panels.material, this.thin.material, this.wideMaterial]) m.clippingPlanes = planes;
-    for (const p of [this.nodes, this.marks]) p.material.clippingPlanes = planes;
+    for (const p of [this.nodes, this.marks]) {
+      p.material.clippingPlanes = planes;
+      (p.material.uniforms["rim"]!.value as Color).set(theme.rim);
+    }
     this.dressParts();
   }
 

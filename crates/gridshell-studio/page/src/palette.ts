@@ -2,7 +2,9 @@
 import { Color } from "three";
 
 /** Dark blue to yellow by even steps of lightness, readable without color vision. */
-const EVEN = ["#30246b", "#31528f", "#24788f", "#229a82", "#62b862", "#b8cd46", "#fbe04a"].map((c) => new Color(c));
+const EVEN = ["#30246b", "#31528f", "#24788f", "#229a82", "#62b862", "#b8cd46", "#fbe04a"].map(
+  (c) => new Color(c),
+);
 /** Degrees 4 and less to 8 and more; 6 is neutral. */
 const DEGREES = ["#5b2a86", "#3b6fb5", "#c9ced6", "#e08a3c", "#a32638"].map((c) => new Color(c));
 
@@ -31,6 +33,7 @@ export interface Theme {
   panels: string;
   members: string;
   bubble: string;
+  rim: string;
 }
 
 export const THEMES: Record<"light" | "dark", Theme> = {
@@ -41,6 +44,7 @@ export const THEMES: Record<"light" | "dark", Theme> = {
     panels: "#ffffff",
     members: "#39424e",
     bubble: "#8fb4d9",
+    rim: "#15181c",
   },
   dark: {
     background: "#14171b",
@@ -49,5 +53,6 @@ export const THEMES: Record<"light" | "dark", Theme> = {
     panels: "#323a44",
     members: "#c4ccd6",
     bubble: "#5d8fc2",
+    rim: "#a7b1bd",
   },
 };

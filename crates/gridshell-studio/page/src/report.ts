@@ -27,7 +27,10 @@ export class Report {
     const body = rows.map((row) =>
       el(
         "tr",
-        { tabindex: 0, title: [...row.notes, row.converged ? "" : "did not converge"].filter(Boolean).join("; ") },
+        {
+          tabindex: 0,
+          title: [...row.notes, row.converged ? "" : "did not converge"].filter(Boolean).join("; "),
+        },
         [
           el("th", { scope: "row" }, [row.name + (row.converged ? "" : " *")]),
           ...[
@@ -66,20 +69,25 @@ function headline(info: RunInfo): HTMLElement[] {
 function warnings(info: RunInfo): HTMLElement[] {
   if (!info.warnings.length) return [];
   const items = info.warnings.map((w) => el("li", {}, [w]));
-  return [el("details", { class: "warnings", open: items.length < 4 }, [
-    el("summary", {}, [items.length === 1 ? "1 warning" : `${items.length} warnings`]),
-    el("ul", {}, items),
-  ])];
+  return [
+    el("details", { class: "warnings", open: items.length < 4 }, [
+      el("summary", {}, [items.length === 1 ? "1 warning" : `${items.length} warnings`]),
+      el("ul", {}, items),
+    ]),
+  ];
 }
 
 function groups(measures: Measure[]): HTMLElement[] {
   const names = [...new Set(measures.map((m) => m.group))];
   return names.map((name) => {
-    const rows = measures.filter((m) => m.group === name).map((m) =>
+    const own = measures.filter((m) => m.group === name);
+    const floors = own.some((m) => m.floor !== null);
+    const rows = own.map((m) =>
       el("tr", { title: m.help, class: m.bad ? "bad" : "" }, [
         el("th", { scope: "row" }, [m.label]),
         el("td", {}, [m.value, m.unit && el("span", { class: "unit" }, [` ${m.unit}`])]),
-        el("td", { class: "floor" }, [m.floor === null ? "" : `≥ ${m.floor}`]),
+        floors &&
+          el("td", { class: "floor", title: "It cannot be less" }, [m.floor === null ? "" : `≥ ${m.floor}`]),
       ]),
     );
     return section(name, [el("table", { class: "measures" }, [el("tbody", {}, rows)])]);
@@ -87,7 +95,10 @@ function groups(measures: Measure[]): HTMLElement[] {
 }
 
 function section(title: string, content: (HTMLElement | Element)[], open = true): HTMLElement {
-  return el("details", { class: "section", open }, [el("summary", {}, [title]), ...(content as HTMLElement[])]);
+  return el("details", { class: "section", open }, [
+    el("summary", {}, [title]),
+    ...(content as HTMLElement[]),
+  ]);
 }
 
 const WIDTH = 240;
@@ -107,8 +118,16 @@ function histogram(h: Histogram): HTMLElement {
   const ends = [h.edges[0]!, h.edges[h.edges.length - 1]!];
   return el("figure", { class: "histogram" }, [
     el("figcaption", {}, [h.title]),
-    svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", role: "img" }, bars) as unknown as Node,
-    el("div", { class: "ends" }, ends.map((x) => el("span", {}, [`${figure(x)} ${h.unit}`]))),
+    svg(
+      "svg",
+      { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", role: "img" },
+      bars,
+    ) as unknown as Node,
+    el(
+      "div",
+      { class: "ends" },
+      ends.map((x) => el("span", {}, [`${figure(x)} ${h.unit}`])),
+    ),
   ]);
 }
 
@@ -117,8 +136,8 @@ function candidates(info: RunInfo): HTMLElement {
   const rows = info.candidates.map((c, k) =>
     el("tr", { class: k === 0 ? "kept" : "", title: `seed ${c.seed}` }, [
       el("th", { scope: "row" }, [c.start + (k === 0 ? ", kept" : "")]),
-      ...[String(c.heats), c.merit.toFixed(2), c.fluency?.toFixed(2) ?? "–", (100 * c.cv).toFixed(1)].map((t) =>
-        el("td", {}, [t]),
+      ...[String(c.heats), c.merit.toFixed(2), c.fluency?.toFixed(2) ?? "–", (100 * c.cv).toFixed(1)].map(
+        (t) => el("td", {}, [t]),
       ),
     ]),
   );

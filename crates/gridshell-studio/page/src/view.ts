@@ -53,6 +53,8 @@ export class View {
   private readonly section = new Plane(new Vector3(0, -1, 0), 0);
   private cut = false;
   private theme: Theme = THEMES.light;
+  private side: Side = "perspective";
+  private ghost = false;
   private stale = true;
   private quiet = false;
 
@@ -102,7 +104,7 @@ export class View {
 
   showSurface(frame: Frame): void {
     this.surface.show(frame);
-    this.surface.faint(false);
+    this.surface.veil(false, this.ghost);
     this.box.setFromArray(floats(frame, "xyz"));
     this.grid.group.visible = false;
     this.bubbles.points.visible = false;
@@ -112,14 +114,14 @@ export class View {
 
   showBubbles(frame: Frame): void {
     this.bubbles.show(frame, this.theme);
-    this.surface.faint(false);
+    this.surface.veil(false, this.ghost);
     this.grid.group.visible = false;
     this.redraw();
   }
 
   showGrid(frame: Frame): void {
     this.grid.show(frame);
-    this.surface.faint(true);
+    this.surface.veil(true, this.ghost);
     this.bubbles.points.visible = false;
     this.redraw();
   }
@@ -128,13 +130,20 @@ export class View {
   clear(): void {
     this.grid.group.visible = false;
     this.bubbles.points.visible = false;
-    this.surface.faint(false);
+    this.surface.veil(false, this.ghost);
     this.redraw();
   }
 
+  /** Whether the surface is hinted at behind the grid. */
   showsSurface(yes: boolean): void {
-    this.surface.group.visible = yes;
+    this.ghost = yes;
+    this.surface.veil(this.grid.group.visible, yes);
     this.redraw();
+  }
+
+  /** Look at all of it again, from the same side. */
+  whole(): void {
+    this.look(this.side);
   }
 
   /** Look from a side at all of it. */
@@ -146,7 +155,9 @@ export class View {
     this.controls.object = this.camera;
     const eye = SIDES[side].clone().normalize();
     const far = reach / Math.sin((this.perspective.fov * Math.PI) / 360);
-    this.camera.position.copy(middle).addScaledVector(eye, far * 0.92);
+    const aspect = (this.host.clientWidth || 1) / (this.host.clientHeight || 1);
+    this.side = side;
+    this.camera.position.copy(middle).addScaledVector(eye, far * 0.84 * Math.max(1, 1.2 / aspect));
     if (side === "top") this.camera.position.y -= 1e-4 * reach;
     this.controls.target.copy(middle);
     for (const camera of [this.perspective, this.parallel]) {
@@ -223,7 +234,9 @@ export class View {
   }
 
   private draw(): void {
-    this.sun.position.copy(this.camera.position).add(new Vector3(0, 0, 1).multiplyScalar(this.camera.far / 6));
+    this.sun.position
+      .copy(this.camera.position)
+      .add(new Vector3(0, 0, 1).multiplyScalar(this.camera.far / 6));
     this.sun.target.position.copy(this.controls.target);
     this.sun.target.updateMatrixWorld();
     this.renderer.render(this.scene, this.camera);
@@ -248,7 +261,7 @@ export class View {
     this.perspective.aspect = aspect;
     const size = this.box.getSize(new Vector3());
     const half = 0.56 * Math.max(size.length() / 1.25, 1e-6);
-    const narrow = Math.max(1, 1 / aspect);
+    const narrow = Math.max(1, 0.8 / aspect);
     this.parallel.left = -half * aspect * narrow;
     this.parallel.right = half * aspect * narrow;
     this.parallel.top = half * narrow;
