@@ -555,7 +555,7 @@ fn info(inspection: &Inspection, sketch: &Surface) -> SurfaceInfo {
     let size = [0, 1, 2].map(|k| surface.bounds.max[k] - surface.bounds.min[k]);
     let mut facts = vec![
         fact("Area", format!("{:.1} m²", surface.area)),
-        fact("Size", format!("{:.2} × {:.2} × {:.2} m", size[0], size[1], size[2])),
+        fact("Size", format!("{:.1} × {:.1} × {:.1} m", size[0], size[1], size[2])),
         fact(
             "Patches",
             if surface.patches == 0 { "a mesh".into() } else { surface.patches.to_string() },

@@ -29,7 +29,7 @@ export class Editing {
 
   constructor() {
     const suggest = el("button", { type: "button" }, ["Suggest"], { onclick: () => this.onSuggest?.() });
-    const relax = el("button", { type: "button" }, ["Relax all"], {
+    const relax = el("button", { type: "button", title: "Move all nodes to an even balance" }, ["Relax"], {
       onclick: () => this.onEdit?.({ op: "relax_all" }),
     });
     this.undo.onclick = () => this.onUndo?.();
@@ -63,11 +63,18 @@ export class Editing {
 
   hovered(ways: Step[]): void {
     if (!ways.length) {
-      const keys = ["F flip", "S split", "C collapse", "D drift"].map((k) =>
-        el("span", {}, [el("kbd", {}, [k[0]!]), k.slice(1)]),
-      );
+      const keys = [
+        "F flip",
+        "S split",
+        "C collapse",
+        "D drift",
+        "P pin",
+        "U unpin",
+        "A anchor",
+        "G move",
+      ].map((k) => el("span", {}, [el("kbd", {}, [k[0]!]), k.slice(1)]));
       this.ways.replaceChildren(
-        el("p", { class: "hint" }, ["Point at a member and press"]),
+        el("p", { class: "hint" }, ["Point at a member or node and press"]),
         el("p", { class: "keys" }, keys),
       );
       return;

@@ -636,6 +636,11 @@ view.canvas.addEventListener("pointerup", (e) => {
   link.send({ kind: "select", run: shown, matrix: view.matrix(), rectangle });
 });
 view.canvas.addEventListener("click", () => {
+  if (grabbed !== null && picked?.at) {
+    editing.onEdit?.({ op: "move", node: grabbed, to: picked.at });
+    grabbed = null;
+    return;
+  }
   if (!pressed(measureToggle) || !picked?.at) return;
   const at = picked.node_first && picked.node_at ? picked.node_at : picked.at;
   if (from) {
@@ -675,11 +680,30 @@ document.addEventListener("keydown", (e) => {
   if (key === "m") return measureToggle.click();
   const side = sides.find((s) => s[2] === key);
   if (side) return look(side[0]);
+  if (pressed(editToggle)) editAt(key);
   const op = OPERATIONS[key];
   if (op && pressed(editToggle) && picked?.member) editing.onEdit?.({ op, nodes: picked.member });
 });
 
+/** The node that is moved by the next click. */
+let grabbed: number | null = null;
+
+/** Edits of the node or place under the pointer. */
+function editAt(key: string): void {
+  if (!picked?.at) return;
+  if (key === "a") editing.onEdit?.({ op: "add_anchor", at: picked.at });
+  const node = picked.node_first ? picked.node : null;
+  if (node === null) return;
+  if (key === "p") editing.onEdit?.({ op: "pin", node });
+  if (key === "u") editing.onEdit?.({ op: "unpin", node });
+  if (key === "g") {
+    grabbed = node;
+    say(`node ${node} goes to where you click next`);
+  }
+}
+
 function cancelAll(): void {
+  grabbed = null;
   if (going) link.send({ kind: "cancel" });
   editing.selected([], 0);
   view.grid.mark([]);
