@@ -1,9 +1,10 @@
 //! The server: the page's files, one socket for each tab, files in and out. All of it behind the [`Guard`].
 
-use crate::desk::{self, ACCEPTS, Desk, Outgoing, UPLOAD_LIMIT};
+use crate::desk::{self, Desk, Outgoing};
 use crate::guard::Guard;
 use crate::message::Request as Wish;
 use crate::page::Page;
+use crate::told::{ACCEPTS, UPLOAD_LIMIT};
 use axum::Router;
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
@@ -14,6 +15,7 @@ use axum::middleware::{self, Next};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use serde::Deserialize;
+use std::future::{Ready, ready};
 use std::sync::Arc;
 use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::mpsc;
@@ -76,15 +78,15 @@ async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next
     response
 }
 
-async fn index(State(server): State<Arc<Server>>) -> Response {
-    page_file(&server, "")
+fn index(State(server): State<Arc<Server>>) -> Ready<Response> {
+    ready(page_file(&server, ""))
 }
 
-async fn file(
+fn file(
     State(server): State<Arc<Server>>,
     Path((_, name)): Path<(String, String)>,
-) -> Response {
-    page_file(&server, &name)
+) -> Ready<Response> {
+    ready(page_file(&server, &name))
 }
 
 fn page_file(server: &Server, name: &str) -> Response {
@@ -180,9 +182,9 @@ fn escaped(name: &str) -> String {
         .collect()
 }
 
-async fn socket(State(server): State<Arc<Server>>, upgrade: WebSocketUpgrade) -> Response {
+fn socket(State(server): State<Arc<Server>>, upgrade: WebSocketUpgrade) -> Ready<Response> {
     let limited = upgrade.max_message_size(MESSAGE_LIMIT).max_frame_size(MESSAGE_LIMIT);
-    limited.on_upgrade(move |socket| converse(socket, server))
+    ready(limited.on_upgrade(move |socket| converse(socket, server)))
 }
 
 /// One tab, until it goes.
