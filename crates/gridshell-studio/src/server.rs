@@ -60,6 +60,8 @@ pub fn router(server: Arc<Server>) -> Router {
 async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next) -> Response {
     let checked = server.guard.check(request.method(), request.uri().path(), request.headers());
     let mut response = match checked {
+        // Before a byte of it is read.
+        Ok(()) if length(&request) > UPLOAD_LIMIT as u64 => too_large(&server),
         Ok(()) => next.run(request).await,
         Err(reason) => {
             (server.log)(&format!("refused: {reason}"));
@@ -76,6 +78,18 @@ async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next
         headers.insert(name, HeaderValue::from_static(value));
     }
     response
+}
+
+/// How long a request says that its body is.
+fn length(request: &Request) -> u64 {
+    let told = request.headers().get(header::CONTENT_LENGTH);
+    told.and_then(|v| v.to_str().ok()?.parse().ok()).unwrap_or(0)
+}
+
+fn too_large(server: &Server) -> Response {
+    let message = format!("the file is larger than {} MB", UPLOAD_LIMIT >> 20);
+    (server.log)(&format!("refused a file: {message}"));
+    (StatusCode::PAYLOAD_TOO_LARGE, message).into_response()
 }
 
 fn index(State(server): State<Arc<Server>>) -> Ready<Response> {
@@ -112,13 +126,7 @@ async fn open(
         (server.log)(&format!("refused a file: {message}"));
         (status, message).into_response()
     };
-    let Ok(bytes) = body else {
-        let limit = UPLOAD_LIMIT >> 20;
-        return refuse(
-            StatusCode::PAYLOAD_TOO_LARGE,
-            format!("the file is larger than {limit} MB"),
-        );
-    };
+    let Ok(bytes) = body else { return too_large(&server) };
     let Some(name) = file_name(&name) else {
         let known = ACCEPTS.join(", ");
         return refuse(

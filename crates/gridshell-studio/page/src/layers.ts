@@ -296,7 +296,7 @@ export class GridLayer {
     for (let k = 0; k < nodes.length; k++) color.toArray(fill, 3 * k);
     put(this.marks.geometry, "position", at, 3);
     put(this.marks.geometry, "fill", fill, 3);
-    put(this.marks.geometry, "size", new Float32Array(nodes.length).fill(16), 1);
+    put(this.marks.geometry, "size", new Float32Array(nodes.length).fill(13), 1);
   }
 
   dress(theme: Theme, planes: Plane[]): void {
