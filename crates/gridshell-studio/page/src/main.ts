@@ -623,6 +623,7 @@ view.canvas.addEventListener("pointermove", (e) => {
     return;
   }
   if (e.buttons === 0) ask(e);
+  else tip.hidden = true;
 });
 view.canvas.addEventListener("pointerleave", () => {
   tip.hidden = true;
