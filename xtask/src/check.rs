@@ -1,7 +1,7 @@
 //! What must hold before a change is shared.
 
 use crate::build::{cargo, cargo_aloud};
-use crate::readers;
+use crate::{page, readers};
 
 /// Format, clippy on all targets, rustdoc.
 pub fn lint() -> Result<(), String> {
@@ -17,13 +17,14 @@ pub fn test() -> Result<(), String> {
     let result = cargo_aloud(&["test", "--workspace", "--no-fail-fast", "--quiet"], |line| {
         sum.add(line);
     });
+    let pages = page::test(&mut |line| sum.add(line));
     let read = readers::run();
     if let Ok(read) = &read {
         sum.passed += read.passed;
         sum.failed += read.failed;
         sum.ignored += read.skipped;
     }
-    let result = result.and(read.and_then(all_passed));
+    let result = result.and(pages).and(read.and_then(all_passed));
     let word = if result.is_ok() { "ok" } else { "FAILED" };
     println!(
         "test result: {word}. {} passed; {} failed; {} ignored",

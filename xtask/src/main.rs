@@ -8,6 +8,7 @@ mod cases;
 mod check;
 mod fuzz;
 mod laid;
+mod page;
 mod picture;
 mod quality;
 mod readers;
@@ -19,7 +20,8 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask CHORE
   lint                    format, clippy and rustdoc, warnings denied
-  test                    lint, then every test, the documentation's included, then what `readers` does
+  test                    lint, then every test, the documentation's and the studio's page's included, then what
+                          `readers` does; the page wants npm and Chromium (CHROMIUM, or /usr/bin/chromium)
   readers                 programs that others wrote read back every format (installs them below the target folder)
   cases FOLDER [--draft] [NAME]...
                           a grid on every case in FOLDER's README.md table (or the named ones), as a table,

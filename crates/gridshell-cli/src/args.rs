@@ -31,6 +31,9 @@ pub enum Command {
     /// Tell what a file holds: format, units, parts, objects, patches, loops, corners, creases, gaps, what was
     /// skipped, and edge lengths that would suit it.
     Inspect(Inspect),
+    /// Open the studio: lay, look at and edit grids in the browser. Only this machine's own browser gets in.
+    #[cfg(feature = "studio")]
+    Studio(Studio),
     /// List the built-in surfaces, with a sensible edge length each.
     Surfaces,
 }
@@ -249,6 +252,23 @@ pub struct Inspect {
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,
+}
+
+#[cfg(feature = "studio")]
+#[derive(ClapArgs)]
+pub struct Studio {
+    /// A file (STEP, IGES, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface to begin with.
+    #[arg(default_value = "great-court")]
+    pub surface: String,
+    /// Port of 127.0.0.1; without it a free one.
+    #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
+    pub port: u16,
+    /// Print the address, and leave opening the browser to the user.
+    #[arg(long)]
+    pub no_browser: bool,
+    /// A folder with a built page instead of the one in this program, for working on the page.
+    #[arg(long, value_name = "FOLDER", hide = true)]
+    pub page: Option<PathBuf>,
 }
 
 /// A positive number that is no infinity; a billion of anything is enough.

@@ -12,6 +12,8 @@ mod picture;
 mod progress;
 mod recipe;
 mod say;
+#[cfg(feature = "studio")]
+mod studio;
 mod surfaces;
 mod table;
 
@@ -37,6 +39,8 @@ fn main() -> ExitCode {
         Command::Edit(args) => edit::run(args),
         Command::Convert(args) => convert::run(args),
         Command::Inspect(args) => inspect::run(args),
+        #[cfg(feature = "studio")]
+        Command::Studio(args) => studio::run(args),
         Command::Surfaces => surfaces::run(),
     };
     match result {

@@ -13,7 +13,7 @@
 mod system;
 
 use crate::grid::{Grid, Place};
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use crate::surface::Surface;
 use glam::DVec3;
 use system::System;
@@ -88,7 +88,8 @@ pub fn balance(surface: &Surface, grid: &mut Grid, options: &Options, job: &Job)
         if report.converged {
             break;
         }
-        job.progress("relax", report.steps as f64 / options.max_steps as f64, &grid.flat_xyz());
+        let done = report.steps as f64 / options.max_steps as f64;
+        job.progress("relax", done, Picture::Grid(grid));
     }
     report
 }

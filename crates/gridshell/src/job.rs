@@ -1,5 +1,10 @@
-//! A running job seen from outside: progress with intermediate positions, cancel, time limit.
+//! A running job seen from outside: progress with pictures of the work, cancel, time limit.
+//!
+//! Pictures are borrowed from the stage that is at work: they cost nothing unless the sink copies them, and since
+//! the sink cannot change them, the grid is the same bit for bit whether anybody looks or not.
 
+use crate::grid::Grid;
+use glam::DVec3;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -8,20 +13,55 @@ use std::time::{Duration, Instant};
 pub struct Progress<'a> {
     /// Stage name as in the output: `pack`, `triangulate`, `regularize`, `relax`.
     pub stage: &'static str,
-    /// Share of the stage that is done, 0 to 1.
+    /// Share of the stage that is done, 0 to 1; candidates at work side by side tell their own.
     pub fraction: f64,
-    /// Present node (or bubble) positions, xyz in metres, flat; may be empty.
-    pub positions: &'a [f64],
+    /// Which candidate this is about, counted from 0; 0 as well where there are none.
+    pub candidate: usize,
+    /// The work as it stands.
+    pub picture: Picture<'a>,
+}
+
+/// The work as it stands, to be copied by who wants to show it.
+#[derive(Clone, Copy)]
+pub enum Picture<'a> {
+    /// Nothing to show.
+    None,
+    /// Bubbles on the carrier.
+    Bubbles {
+        /// Their centres, metres.
+        xyz: &'a [DVec3],
+        /// Their diameters over `diameter`.
+        scales: &'a [f64],
+        /// Mean diameter, metres.
+        diameter: f64,
+    },
+    /// A grid; nodes that are not alive belong to no panel.
+    Grid(&'a Grid),
 }
 
 type Sink = Arc<dyn Fn(&Progress) + Send + Sync>;
 
 /// Cancel flag, deadline and progress sink of one run. Cheap to clone; clones share the flag.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct Job {
     cancelled: Arc<AtomicBool>,
     deadline: Option<Instant>,
     sink: Option<Sink>,
+    candidate: usize,
+    /// Where in its stage the work is that reports 0 and 1.
+    span: [f64; 2],
+}
+
+impl Default for Job {
+    fn default() -> Job {
+        Job {
+            cancelled: Arc::default(),
+            deadline: None,
+            sink: None,
+            candidate: 0,
+            span: [0.0, 1.0],
+        }
+    }
 }
 
 impl Job {
@@ -39,6 +79,12 @@ impl Job {
         self
     }
 
+    /// The same job, telling of this candidate, in a stretch of its stage from `span[0]` to `span[1]`.
+    #[must_use]
+    pub fn of_candidate(&self, candidate: usize, span: [f64; 2]) -> Self {
+        Job { candidate, span, ..self.clone() }
+    }
+
     /// Ask the job to stop; from any thread. The best grid so far is still finished and returned.
     pub fn cancel(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
@@ -50,9 +96,10 @@ impl Job {
     }
 
     /// Report progress; costs nothing without a sink.
-    pub fn progress(&self, stage: &'static str, fraction: f64, positions: &[f64]) {
-        if let Some(sink) = &self.sink {
-            sink(&Progress { stage, fraction: fraction.clamp(0.0, 1.0), positions });
-        }
+    pub fn progress(&self, stage: &'static str, fraction: f64, picture: Picture) {
+        let Some(sink) = &self.sink else { return };
+        let [from, to] = self.span;
+        let fraction = from + (to - from) * fraction.clamp(0.0, 1.0);
+        sink(&Progress { stage, fraction, candidate: self.candidate, picture });
     }
 }

@@ -4,7 +4,7 @@
 use super::starts::Start;
 use crate::balance::{self, balance};
 use crate::grid::Grid;
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use crate::merit::Sums;
 use crate::recipe::{Recipe, RegularizeMethod, RelaxMethod};
 use crate::run::CandidateReport;
@@ -12,6 +12,9 @@ use crate::stages::measure::{Border, bridging_members};
 use crate::stages::{regularize, relax, triangulate};
 use crate::surface::Surface;
 use rayon::prelude::*;
+
+/// The first search's share of the time that regularizing takes; about, for progress only.
+const SEARCH_SHARE: f64 = 0.3;
 
 /// Steps of balancing before candidates are compared.
 const TRIAL_STEPS: usize = 4;
@@ -56,13 +59,15 @@ pub fn regularize(
     job: &Job,
 ) -> Vec<Candidate> {
     let searched = recipe.regularize.method == RegularizeMethod::Search;
+    let spans = spans(recipe, triangulated.len());
     let mut candidates: Vec<Candidate> = triangulated
         .par_iter()
         .zip(starts)
         .enumerate()
         .map(|(start, ((grid, _), Start { seed, .. }))| {
+            let job = job.of_candidate(start, spans[0]);
             let (mut grid, report) =
-                regularize::regularize(surface, grid.clone(), length, recipe, *seed, job);
+                regularize::regularize(surface, grid.clone(), length, recipe, *seed, &job);
             if searched {
                 settle(surface, &mut grid, recipe);
             }
@@ -78,8 +83,9 @@ pub fn regularize(
         candidates[..through].par_iter_mut().for_each(|c| {
             let seed = starts[c.start].seed.wrapping_add(heat as u64 + 1);
             let own = own_recipe(recipe, c.start);
+            let job = job.of_candidate(c.start, spans[heat + 1]);
             let (grid, report) =
-                regularize::polish(surface, c.grid.clone(), length, &own, trials, seed, job);
+                regularize::polish(surface, c.grid.clone(), length, &own, trials, seed, &job);
             let polished =
                 Candidate::new(surface, c.start, grid, c.report.and(&report), length, recipe);
             // Polishing gives back the best it met, up to the last balance.
@@ -89,8 +95,26 @@ pub fn regularize(
             c.heats = heat + 1;
         });
         rank(&mut candidates);
+        let best = &candidates[0];
+        let job = job.of_candidate(best.start, spans[heat + 1]);
+        job.progress("regularize", 1.0, Picture::Grid(&best.grid));
     }
     candidates
+}
+
+/// Where in the stage the first search and each of the heats begin and end, by the trials that they make.
+fn spans(recipe: &Recipe, candidates: usize) -> Vec<[f64; 2]> {
+    let heats = &recipe.regularize.heats;
+    let polish = heats.iter().map(|&[through, trials]| (through.min(candidates) * trials) as f64);
+    let polish: Vec<f64> = polish.collect();
+    let all: f64 = polish.iter().sum();
+    let search = if all > 0.0 { SEARCH_SHARE } else { 1.0 };
+    let mut spans = vec![[0.0, search]];
+    for trials in polish {
+        let from = spans[spans.len() - 1][1];
+        spans.push([from, from + (1.0 - SEARCH_SHARE) * trials / all.max(1.0)]);
+    }
+    spans
 }
 
 /// Relax the candidates that came furthest; the best wins. `None` without any.
@@ -115,7 +139,8 @@ pub fn relax(
                 own.border *= end[0];
                 own.relax.straightness *= end[1];
                 let mut grid = c.grid.clone();
-                let relaxed = relax::relax(surface, &mut grid, &own, job);
+                let job = job.of_candidate(c.start, [0.0, 1.0]);
+                let relaxed = relax::relax(surface, &mut grid, &own, &job);
                 let sums = Sums::whole(&grid, surface, length, recipe.measure.lambda);
                 Winner {
                     start: c.start,

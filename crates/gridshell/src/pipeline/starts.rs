@@ -4,7 +4,7 @@ use crate::balance::{self, balance};
 use crate::bubbles::Bubbles;
 use crate::error::Result;
 use crate::grid::Grid;
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use crate::merit::Sums;
 use crate::recipe::{self, Recipe};
 use crate::stages::{pack, triangulate};
@@ -39,6 +39,9 @@ pub struct Starts {
     pub notes: Vec<String>,
 }
 
+/// The stage from its beginning to its end.
+const WHOLE: [f64; 2] = [0.0, 1.0];
+
 /// Draws of a lattice are judged after this many steps of balancing.
 const TRIAL_STEPS: usize = 3;
 
@@ -70,8 +73,8 @@ pub fn starts(surface: &Surface, length: f64, recipe: &Recipe, job: &Job) -> Res
             (0..recipe.regularize.candidates as u64).map(|k| seed(recipe, k)).collect()
         }
     };
-    let starts =
-        seeds.into_par_iter().map(|seed| packing(surface, length, recipe, seed, job)).collect();
+    let packed = |(k, seed)| packing(surface, length, recipe, seed, &job.of_candidate(k, WHOLE));
+    let starts = seeds.into_par_iter().enumerate().map(packed).collect();
     Ok(Starts { starts, notes: vec![note.to_owned()] })
 }
 
@@ -145,6 +148,7 @@ fn lattices(
             let start = connect(surface, chart, &bubbles)?;
             let mut grid = start.clone();
             balance(surface, &mut grid, &trial, &Job::default());
+            job.progress("pack", k as f64 / draws as f64, Picture::Grid(&grid));
             let lambda = recipe.measure.lambda;
             let points = Sums::whole(&grid, surface, length, lambda).merit(lambda);
             Ok(Some((points, Start { bubbles, seed, report: None, grid: Some(start) })))
@@ -160,9 +164,10 @@ fn lattices(
     )];
     let mut starts: Vec<Start> = judged.into_iter().map(|j| j.1).collect();
     starts.par_extend(
-        (0..packed as u64)
+        (0..packed)
             .into_par_iter()
-            .map(|k| packing(surface, length, recipe, seed(recipe, draws as u64 + k), job)),
+            .map(|k| (job.of_candidate(draws + k, WHOLE), seed(recipe, (draws + k) as u64)))
+            .map(|(job, seed)| packing(surface, length, recipe, seed, &job)),
     );
     Ok(Starts { starts, notes })
 }

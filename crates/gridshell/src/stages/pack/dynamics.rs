@@ -1,7 +1,7 @@
 //! The bubbles' dynamics (Eq. 2 to 10): damped motion under inter-bubble forces and the surface's pull.
 
 use crate::bubbles::{Bubbles, neighbors::neighbors};
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use crate::recipe::Pack;
 use crate::surface::{Surface, SurfacePoint};
 use glam::DVec3;
@@ -89,10 +89,8 @@ pub fn settle(
         report.last_move = moved.fold(0.0, f64::max) / edge_length;
         report.steps += 1;
         report.converged = report.last_move < options.settled;
-        if report.steps.is_multiple_of(20) {
-            let flat: Vec<f64> = xyz.iter().flat_map(DVec3::to_array).collect();
-            job.progress("pack", report.steps as f64 / options.max_steps as f64, &flat);
-        }
+        let picture = Picture::Bubbles { xyz: &xyz, scales: &scales, diameter };
+        job.progress("pack", report.steps as f64 / options.max_steps as f64, picture);
     }
     bubbles.interior = bodies.into_iter().map(|b| b.foot).collect();
     report

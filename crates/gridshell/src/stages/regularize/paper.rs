@@ -6,7 +6,7 @@
 
 use super::Report;
 use super::state::State;
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use crate::recipe::Regularize;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -61,7 +61,7 @@ pub fn algorithm1(state: &mut State, options: &Regularize, job: &Job) -> Report 
         job.progress(
             "regularize",
             round as f64 / options.max_rounds as f64,
-            &state.grid.flat_xyz(),
+            Picture::Grid(&state.grid),
         );
     }
     report

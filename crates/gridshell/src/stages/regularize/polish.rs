@@ -10,7 +10,7 @@ use super::local::{Aim, Local};
 use super::search::{Operation, draw_at};
 use super::state::{Few, State};
 use crate::balance::{self, balance};
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use crate::math::trig::{exp, ln};
 use crate::merit::{self, Sums};
 use crate::recipe::Recipe;
@@ -59,6 +59,9 @@ pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job:
             let done = (round as f64 + made as f64 * ROUNDS as f64 / trials as f64) / ROUNDS as f64;
             let [hot, cold] = TEMPERATURE;
             polish.temperature = hot * exp(ln(cold / hot) * done);
+            if k % 16 == 0 {
+                job.progress("regularize", done, Picture::Grid(&polish.state.grid));
+            }
             made += usize::from(polish.trial(&mut report));
         }
     }

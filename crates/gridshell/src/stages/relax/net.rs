@@ -5,7 +5,7 @@
 
 use super::Report;
 use crate::grid::Grid;
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use crate::recipe::Relax;
 use crate::surface::Surface;
 use glam::DVec3;
@@ -53,9 +53,8 @@ pub fn net(surface: &Surface, grid: &mut Grid, options: &Relax, job: &Job) -> Re
         if report.converged {
             break;
         }
-        if report.steps % 50 == 0 {
-            job.progress("relax", report.steps as f64 / options.max_steps as f64, &grid.flat_xyz());
-        }
+        let done = report.steps as f64 / options.max_steps as f64;
+        job.progress("relax", done, Picture::Grid(grid));
     }
     report
 }

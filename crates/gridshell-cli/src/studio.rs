@@ -1,0 +1,44 @@
+//! `gridshell studio`: the server, and the browser that is opened at it.
+
+use crate::Outcome;
+use crate::args::Studio;
+use crate::failure::Failure;
+use crate::say;
+use gridshell_studio::{Error, Options};
+use std::process::{Command, Stdio};
+use std::sync::Arc;
+
+pub fn run(args: &Studio) -> Result<Outcome, Failure> {
+    let options = Options {
+        surface: args.surface.clone(),
+        port: args.port,
+        log: Arc::new(say::note),
+        page: args.page.clone(),
+    };
+    let told = |address: &str| {
+        // Who started it needs the address even where nothing reads standard output any more.
+        let _ = say::result(&format!("the studio is at {address} (Ctrl-C ends it)\n"));
+        if !args.no_browser {
+            open(address);
+        }
+    };
+    gridshell_studio::run(options, told).map_err(|e| match e {
+        Error::Surface(e) => Failure::of_input(e),
+        Error::Io(e) => Failure::other(e),
+    })?;
+    Ok(Outcome::Done)
+}
+
+/// Open the user's browser; where that fails, the address has been printed.
+fn open(address: &str) {
+    let program = if cfg!(target_os = "macos") {
+        "open"
+    } else if cfg!(windows) {
+        "explorer"
+    } else {
+        "xdg-open"
+    };
+    let mut command = Command::new(program);
+    command.arg(address).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    let _ = command.spawn();
+}

@@ -1,0 +1,328 @@
+// What stands in the view: the surface, bubbles and a grid, each as a few large buffers.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DoubleSide,
+  DynamicDrawUsage,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshLambertMaterial,
+  type Plane,
+  Points,
+  ShaderMaterial,
+  Vector2,
+} from "three";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import { type Frame, floats, wholes } from "./link";
+import { paint, type Theme } from "./palette";
+
+/** Wide lines up to so many members; more of them are thinner on the screen than a pixel is wide anyway. */
+const MOST_WIDE = 24000;
+
+const DISC_VERTEX = `
+  attribute vec3 fill;
+  attribute float size;
+  uniform float pixels;
+  uniform float height;
+  uniform bool metric;
+  varying vec3 vFill;
+  #include <clipping_planes_pars_vertex>
+  void main() {
+    vFill = fill;
+    vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+    gl_Position = projectionMatrix * mvPosition;
+    float depth = isOrthographic ? 1.0 : -mvPosition.z;
+    float onScreen = projectionMatrix[1][1] * height * size / depth;
+    gl_PointSize = metric ? max(onScreen, 2.0 * pixels) : size * pixels;
+    if (!metric) gl_Position.z -= 0.0006 * gl_Position.w;
+    #include <clipping_planes_vertex>
+  }`;
+
+const DISC_FRAGMENT = `
+  uniform vec3 rim;
+  uniform bool metric;
+  varying vec3 vFill;
+  #include <clipping_planes_pars_fragment>
+  void main() {
+    #include <clipping_planes_fragment>
+    vec2 p = 2.0 * gl_PointCoord - 1.0;
+    float r = dot(p, p);
+    if (r > 1.0) discard;
+    vec3 color = vFill;
+    if (metric) {
+      vec3 n = vec3(p.x, -p.y, sqrt(1.0 - r));
+      float light = 0.62 + 0.38 * max(dot(n, normalize(vec3(-0.4, 0.6, 0.7))), 0.0);
+      color = mix(vFill * light, rim, smoothstep(0.86, 1.0, r) * 0.5);
+    } else {
+      color = mix(vFill, rim, smoothstep(0.52, 0.62, r));
+    }
+    gl_FragColor = vec4(color, 1.0);
+    #include <colorspace_fragment>
+  }`;
+
+function discs(metric: boolean): Points<BufferGeometry, ShaderMaterial> {
+  const material = new ShaderMaterial({
+    uniforms: {
+      pixels: { value: 1 },
+      height: { value: 1 },
+      metric: { value: metric },
+      rim: { value: new Color("#15181c") },
+    },
+    vertexShader: DISC_VERTEX,
+    fragmentShader: DISC_FRAGMENT,
+    clipping: true,
+  });
+  const points = new Points(new BufferGeometry(), material);
+  points.frustumCulled = false;
+  return points;
+}
+
+function put(geometry: BufferGeometry, name: string, array: Float32Array, width: number): void {
+  const old = geometry.getAttribute(name);
+  if (old instanceof BufferAttribute && old.array.length === array.length) {
+    (old.array as Float32Array).set(array);
+    old.needsUpdate = true;
+    return;
+  }
+  geometry.setAttribute(name, new BufferAttribute(array, width).setUsage(DynamicDrawUsage));
+}
+
+/** Positions of these corners, one after the other. */
+function gather(xyz: Float32Array, corners: Uint32Array): Float32Array {
+  const out = new Float32Array(3 * corners.length);
+  for (let k = 0; k < corners.length; k++) {
+    const v = 3 * corners[k]!;
+    out[3 * k] = xyz[v]!;
+    out[3 * k + 1] = xyz[v + 1]!;
+    out[3 * k + 2] = xyz[v + 2]!;
+  }
+  return out;
+}
+
+export class SurfaceLayer {
+  readonly group = new Group();
+  private readonly mesh: Mesh<BufferGeometry, MeshLambertMaterial>;
+  private readonly lines: LineSegments<BufferGeometry, LineBasicMaterial>;
+
+  constructor() {
+    this.mesh = new Mesh(
+      new BufferGeometry(),
+      new MeshLambertMaterial({
+        side: DoubleSide,
+        polygonOffset: true,
+        polygonOffsetFactor: 2,
+        polygonOffsetUnits: 4,
+      }),
+    );
+    this.lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
+    this.group.add(this.mesh, this.lines);
+  }
+
+  show(frame: Frame): void {
+    const xyz = new BufferAttribute(floats(frame, "xyz"), 3);
+    this.mesh.geometry.dispose();
+    this.mesh.geometry = new BufferGeometry();
+    this.mesh.geometry.setAttribute("position", xyz);
+    this.mesh.geometry.setAttribute("normal", new BufferAttribute(floats(frame, "normals"), 3));
+    this.mesh.geometry.setIndex(new BufferAttribute(wholes(frame, "triangles"), 1));
+    this.lines.geometry.dispose();
+    this.lines.geometry = new BufferGeometry();
+    this.lines.geometry.setAttribute("position", xyz);
+    this.lines.geometry.setIndex(new BufferAttribute(wholes(frame, "lines"), 1));
+  }
+
+  /** Behind a grid the surface is only hinted at, or just its lines are seen. */
+  veil(behindGrid: boolean, ghost: boolean): void {
+    const material = this.mesh.material;
+    this.mesh.visible = !behindGrid || ghost;
+    material.transparent = behindGrid;
+    material.opacity = behindGrid ? 0.4 : 1;
+    material.depthWrite = !behindGrid;
+    this.mesh.renderOrder = behindGrid ? 2 : 0;
+  }
+
+  dress(theme: Theme, planes: Plane[]): void {
+    this.mesh.material.color.set(theme.surface);
+    this.lines.material.color.set(theme.lines);
+    this.mesh.material.clippingPlanes = planes;
+    this.lines.material.clippingPlanes = planes;
+  }
+}
+
+export class BubbleLayer {
+  readonly points = discs(true);
+
+  show(frame: Frame, theme: Theme): void {
+    const radii = floats(frame, "radii");
+    const fill = new Float32Array(3 * radii.length);
+    const color = new Color(theme.bubble);
+    for (let k = 0; k < radii.length; k++) color.toArray(fill, 3 * k);
+    put(this.points.geometry, "position", floats(frame, "xyz"), 3);
+    put(this.points.geometry, "size", radii, 1);
+    put(this.points.geometry, "fill", fill, 3);
+    this.points.visible = true;
+  }
+}
+
+export class GridLayer {
+  readonly group = new Group();
+  private readonly panels: Mesh<BufferGeometry, MeshLambertMaterial>;
+  private readonly thin: LineSegments<BufferGeometry, LineBasicMaterial>;
+  private readonly wide: LineSegments2;
+  private readonly wideMaterial: LineMaterial;
+  private readonly nodes = discs(false);
+  private readonly marks = discs(false);
+  private frame: Frame | null = null;
+  private theme: Theme;
+  private width = 1.6;
+
+  constructor(theme: Theme) {
+    this.theme = theme;
+    this.panels = new Mesh(
+      new BufferGeometry(),
+      new MeshLambertMaterial({
+        side: DoubleSide,
+        flatShading: true,
+        polygonOffset: true,
+        polygonOffsetFactor: 1,
+        polygonOffsetUnits: 2,
+      }),
+    );
+    this.thin = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
+    this.wideMaterial = new LineMaterial({ linewidth: 1.6 });
+    this.wide = new LineSegments2(new LineSegmentsGeometry(), this.wideMaterial);
+    for (const part of [this.panels, this.thin, this.wide]) part.frustumCulled = false;
+    this.group.add(this.panels, this.thin, this.wide, this.marks, this.nodes);
+    this.group.visible = false;
+  }
+
+  show(frame: Frame): void {
+    const was = this.frame?.shows;
+    this.frame = frame;
+    const xyz = floats(frame, "xyz");
+    const corners = gather(xyz, wholes(frame, "panels"));
+    put(this.panels.geometry, "position", corners, 3);
+    this.panels.geometry.setDrawRange(0, corners.length / 3);
+    this.lines(gather(xyz, wholes(frame, "members")));
+    const odd = wholes(frame, "irregular");
+    const excess = floats(frame, "excess");
+    // As in the paper: black where a node has too few members, white where it has too many.
+    const fill = new Float32Array(3 * odd.length);
+    for (let k = 0; k < odd.length; k++) fill.fill(excess[k]! < 0 ? 0.01 : 1, 3 * k, 3 * k + 3);
+    put(this.nodes.geometry, "position", gather(xyz, odd), 3);
+    put(this.nodes.geometry, "fill", fill, 3);
+    put(
+      this.nodes.geometry,
+      "size",
+      new Float32Array(odd.length).fill(xyz.length > 24000 ? 6.5 : xyz.length > 2400 ? 8.5 : 11),
+      1,
+    );
+    this.width = xyz.length > 2400 ? 1.15 : 1.6;
+    if (was !== "live" || frame.shows !== "live") this.plain();
+    this.mark([]);
+    this.group.visible = true;
+  }
+
+  private lines(ends: Float32Array): void {
+    const isWide = ends.length / 6 <= MOST_WIDE;
+    this.wide.visible = isWide;
+    this.thin.visible = !isWide;
+    if (!isWide) {
+      put(this.thin.geometry, "position", ends, 3);
+      return;
+    }
+    this.wide.geometry.dispose();
+    this.wide.geometry = new LineSegmentsGeometry();
+    this.wide.geometry.setPositions(ends);
+  }
+
+  /** Without values to color by. */
+  plain(): void {
+    this.panels.material.vertexColors = false;
+    this.panels.material.needsUpdate = true;
+    this.thin.material.vertexColors = false;
+    this.thin.material.needsUpdate = true;
+    this.wideMaterial.vertexColors = false;
+    this.wideMaterial.linewidth = this.width;
+    this.wideMaterial.needsUpdate = true;
+    this.dressParts();
+  }
+
+  color(frame: Frame): void {
+    const scale = frame.scale;
+    if (!scale || !this.frame) return;
+    this.plain();
+    const values = floats(frame, "values");
+    const color = new Color();
+    const at = (k: number, out: Float32Array, to: number) => {
+      paint(values[k] ?? NaN, scale.range, scale.whole, color).toArray(out, to);
+    };
+    if (scale.on === "members") {
+      const colors = new Float32Array(6 * values.length);
+      for (let k = 0; k < values.length; k++) {
+        at(k, colors, 6 * k);
+        colors.copyWithin(6 * k + 3, 6 * k, 6 * k + 3);
+      }
+      if (this.wide.visible) {
+        this.wide.geometry.setColors(colors);
+        this.wideMaterial.vertexColors = true;
+        this.wideMaterial.color.set("#ffffff");
+        this.wideMaterial.linewidth = this.width + 1.4;
+        this.wideMaterial.needsUpdate = true;
+      } else {
+        put(this.thin.geometry, "color", colors, 3);
+        this.thin.material.vertexColors = true;
+        this.thin.material.color.set("#ffffff");
+      }
+      return;
+    }
+    const corners = wholes(this.frame, "panels");
+    const colors = new Float32Array(3 * corners.length);
+    for (let c = 0; c < corners.length; c++) {
+      at(scale.on === "panels" ? Math.floor(c / 3) : corners[c]!, colors, 3 * c);
+    }
+    put(this.panels.geometry, "color", colors, 3);
+    this.panels.material.vertexColors = true;
+    this.panels.material.color.set("#ffffff");
+    this.panels.material.needsUpdate = true;
+  }
+
+  /** Show which nodes are meant. */
+  mark(nodes: number[]): void {
+    const xyz = this.frame ? floats(this.frame, "xyz") : new Float32Array();
+    const at = gather(xyz, Uint32Array.from(nodes));
+    const fill = new Float32Array(at.length);
+    const color = new Color("#2f7fe0");
+    for (let k = 0; k < nodes.length; k++) color.toArray(fill, 3 * k);
+    put(this.marks.geometry, "position", at, 3);
+    put(this.marks.geometry, "fill", fill, 3);
+    put(this.marks.geometry, "size", new Float32Array(nodes.length).fill(13), 1);
+  }
+
+  dress(theme: Theme, planes: Plane[]): void {
+    this.theme = theme;
+    for (const m of [this.panels.material, this.thin.material, this.wideMaterial]) m.clippingPlanes = planes;
+    for (const p of [this.nodes, this.marks]) {
+      p.material.clippingPlanes = planes;
+      (p.material.uniforms["rim"]!.value as Color).set(theme.rim);
+    }
+    this.dressParts();
+  }
+
+  private dressParts(): void {
+    if (!this.panels.material.vertexColors) this.panels.material.color.set(this.theme.panels);
+    if (!this.thin.material.vertexColors) this.thin.material.color.set(this.theme.members);
+    if (!this.wideMaterial.vertexColors) this.wideMaterial.color.set(this.theme.members);
+  }
+
+  /** Sizes on the screen, in pixels. */
+  resize(width: number, height: number, pixels: number): void {
+    this.wideMaterial.resolution.copy(new Vector2(width, height));
+    for (const p of [this.nodes, this.marks]) p.material.uniforms["pixels"]!.value = pixels;
+  }
+}

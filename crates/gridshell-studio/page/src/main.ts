@@ -1,0 +1,758 @@
+// The studio's page: what stands where, and what happens when.
+import "./style.css";
+import { el, figure } from "./dom";
+import { Editing } from "./editing";
+import { Form } from "./form";
+import { type Frame, Link } from "./link";
+import type { Event, Hello, Picked, Progress, RunSummary, SurfaceInfo } from "./messages";
+import { gradient, THEMES } from "./palette";
+import { Report } from "./report";
+import { type Side, View } from "./view";
+
+const app = document.getElementById("app")!;
+const form = new Form();
+const report = new Report();
+const toast = el("div", { class: "toast", role: "alert", hidden: true });
+const status = el("output", { class: "status", "aria-live": "polite" }, ["connecting …"]);
+
+/* Left: what is wanted. */
+const surfaces = el("select", { id: "surface", "aria-label": "Built-in surface" });
+const fileInput = el("input", { type: "file", id: "file", hidden: true });
+const openButton = el("button", { type: "button", class: "quiet" }, ["Open file …"]);
+const about = el("div", { class: "about" });
+const estimate = el("p", { class: "estimate" }, ["–"]);
+const generate = el("button", { type: "button", class: "primary", id: "generate" }, ["Generate"]);
+const cancel = el("button", { type: "button", id: "cancel", disabled: true }, ["Cancel"]);
+const stages = el("div", {
+  class: "progress",
+  role: "progressbar",
+  "aria-label": "Progress",
+  "aria-valuemin": 0,
+  "aria-valuemax": 100,
+});
+const left = el("aside", { class: "left", "aria-label": "Surface and recipe" }, [
+  el("section", { class: "source" }, [
+    el("label", { class: "title", for: "surface" }, ["Surface"]),
+    el("div", { class: "row" }, [surfaces, openButton, fileInput]),
+    about,
+  ]),
+  el("section", { class: "recipe" }, [form.element]),
+  el("section", { class: "go" }, [estimate, el("div", { class: "row" }, [generate, cancel]), stages]),
+]);
+
+/* Centre: what is there. */
+const colorings = el("select", { "aria-label": "Color by", id: "color" }, [
+  el("option", { value: "" }, ["No color"]),
+]);
+const legend = el("div", { class: "legend", hidden: true });
+const tip = el("div", { class: "tip", hidden: true });
+const slice = el("input", {
+  type: "range",
+  min: 0,
+  max: 100,
+  value: 0,
+  "aria-label": "Section plane",
+  title: "Section: cut off what is in front",
+});
+const sides: [Side, string, string][] = [
+  ["perspective", "3D", "1"],
+  ["top", "Top", "2"],
+  ["front", "Front", "3"],
+  ["side", "Side", "4"],
+];
+const sideButtons = sides.map(([side, label, key]) =>
+  el("button", { type: "button", title: `${label} (${key})` }, [label], { onclick: () => look(side) }),
+);
+const toggle = (label: string, title: string, id: string) =>
+  el("button", { type: "button", "aria-pressed": "false", title, id }, [label]);
+const surfaceToggle = toggle("Surface", "Show the surface behind the grid", "show-surface");
+const measureToggle = toggle("Distance", "Measure between two points (M)", "measure");
+const editToggle = toggle("Edit", "Change the grid by hand (E)", "edit");
+const compareToggle = toggle("Compare", "Two runs side by side", "compare");
+const picture = el("button", { type: "button", title: "Save a picture of the view" }, ["PNG"]);
+const formats = el("select", { "aria-label": "Export as", id: "export" }, [
+  el("option", { value: "" }, ["Export …"]),
+]);
+const toolbar = el("div", { class: "toolbar", role: "toolbar", "aria-label": "View" }, [
+  el("div", { class: "segment" }, sideButtons),
+  el("label", { class: "slice" }, ["Section", slice]),
+  surfaceToggle,
+  measureToggle,
+  editToggle,
+  compareToggle,
+  el("span", { class: "gap" }),
+  colorings,
+  picture,
+  formats,
+]);
+const host = el("div", { class: "host" });
+const hostB = el("div", { class: "host", hidden: true });
+const selectB = el("select", { class: "other", "aria-label": "Run to compare with" });
+hostB.append(selectB);
+const rubber = el("div", { class: "rubber", hidden: true });
+const stage = el("div", { class: "stage" }, [host, hostB, legend, tip, rubber, toast]);
+const tabs = el("div", { class: "runs", role: "tablist", "aria-label": "Runs" });
+const centre = el("main", { class: "centre" }, [toolbar, stage, tabs]);
+
+/* Right: what it is worth. */
+const editing = new Editing();
+const right = el("aside", { class: "right", "aria-label": "Measures" }, [editing.element, report.element]);
+const theme = el("button", { type: "button", class: "quiet", title: "Light or dark" }, ["Theme"]);
+app.append(
+  el("header", {}, [el("h1", {}, ["gridshell ", el("span", {}, ["studio"])]), status, theme]),
+  left,
+  centre,
+  right,
+);
+
+const view = new View(host);
+let viewB: View | null = null;
+let hello: Hello | null = null;
+let surface: SurfaceInfo | null = null;
+let surfaceFrame: Frame | null = null;
+let runs: RunSummary[] = [];
+let shown = 0;
+let shownB = 0;
+let going: Progress | null = null;
+let began = 0;
+let firstFrame = 0;
+let firstGrid = 0;
+let liveFrames = 0;
+let question = 0;
+let asked = false;
+let lastPointer: PointerEvent | null = null;
+let picked: Picked | null = null;
+let from: [number, number, number] | null = null;
+let announced = 0;
+
+const link = new Link({
+  connected(yes) {
+    status.textContent = yes ? "ready" : "no connection: is gridshell still running? Trying again …";
+    status.classList.toggle("lost", !yes);
+    if (!yes) return;
+    asked = false;
+    // What is shown may have changed while nobody listened.
+    if (shown) setTimeout(() => shown && show(shown), 300);
+  },
+  event: onEvent,
+  frame: onFrame,
+});
+
+function onEvent(event: Event): void {
+  switch (event.kind) {
+    case "hello":
+      return onHello(event);
+    case "surface":
+      return onSurface(event);
+    case "estimate":
+      estimate.textContent = `about ${event.nodes.toLocaleString("en")} nodes, members of ${figure(event.edge_length)} m`;
+      form.suggest("edge_length", figure(event.edge_length));
+      form.suggest("nodes", `about ${event.nodes}`);
+      return;
+    case "progress":
+      return onProgress(event);
+    case "idle":
+      going = null;
+      following = true;
+      return busy(false);
+    case "runs":
+      return onRuns(event.runs, event.newest);
+    case "run":
+      if (event.summary.run === shown) report.show(event);
+      return;
+    case "picked":
+      return onPicked(event);
+    case "hovered":
+      if (event.question === question) editing.hovered(event.ways);
+      return;
+    case "history":
+      if (event.run !== shown) return;
+      editing.history(event.done, event.undone);
+      if (pressed(editToggle)) askSuggestions();
+      return;
+    case "suggested":
+      if (event.run === shown) editing.suggested(event.steps);
+      return;
+    case "selected":
+      view.grid.mark(event.nodes);
+      view.redraw();
+      editing.selected(event.nodes, event.irregular);
+      return;
+    case "distance":
+      say(
+        `${event.straight.toFixed(3)} m straight, ${event.plan.toFixed(3)} m in plan, ${event.height.toFixed(3)} m up`,
+      );
+      return;
+    case "fault":
+      if (event.about === "estimate") estimate.textContent = event.message;
+      else say(event.message, true);
+      return;
+  }
+}
+
+function onFrame(frame: Frame): void {
+  switch (frame.shows) {
+    case "surface":
+      surfaceFrame = frame;
+      view.showSurface(frame);
+      viewB?.showSurface(frame);
+      shown = 0;
+      report.show(null);
+      return;
+    case "bubbles":
+    case "live":
+      if (!going || frame.run !== going.run || !following) return;
+      liveFrames++;
+      if (!firstFrame) firstFrame = performance.now() - began;
+      if (frame.shows === "bubbles") view.showBubbles(frame);
+      else view.showGrid(frame);
+      shownLive = true;
+      return;
+    case "grid":
+      if (frame.run === shownB && viewB) {
+        viewB.showGrid(frame);
+        viewB.follow(view);
+      }
+      if (frame.run !== shown) return;
+      shownLive = false;
+      view.showGrid(frame);
+      if (colorings.value) link.send({ kind: "color", run: shown, by: colorings.value });
+      else legend.hidden = true;
+      return;
+    case "stage":
+      if (frame.run === shown) view.showGrid(frame);
+      return;
+    case "colors":
+      if (frame.run === shownB && viewB) {
+        viewB.grid.color(frame);
+        viewB.redraw();
+      }
+      if (frame.run !== shown || frame.scale?.by !== colorings.value) return;
+      view.grid.color(frame);
+      view.redraw();
+      showLegend(frame);
+      return;
+  }
+}
+
+/** Whether pictures of the run that goes on are followed: until another run is chosen. */
+let following = true;
+let shownLive = false;
+
+function onHello(event: Hello & { kind: "hello" }): void {
+  hello = event;
+  surfaces.replaceChildren(
+    el("option", { value: "", disabled: true }, ["a file"]),
+    ...event.builtins.map((b) => el("option", { value: b.name, title: b.description }, [b.name])),
+  );
+  form.build(event.form);
+  fileInput.accept = event.accepts.map((e) => `.${e}`).join(",");
+  if (colorings.options.length === 1) {
+    colorings.append(
+      ...event.colorings.map((c) => el("option", { value: c.name, title: c.help }, [c.label])),
+    );
+    formats.append(
+      ...event.exports.map((f) => el("option", { value: f.name, title: f.description }, [f.description])),
+    );
+  }
+}
+
+function onSurface(event: SurfaceInfo): void {
+  surface = event;
+  const known = hello?.builtins.some((b) => b.name === event.name) ?? false;
+  surfaces.value = known ? event.name : "";
+  document.title = `${event.name} – gridshell studio`;
+  about.replaceChildren(
+    el("p", { class: "what" }, [known ? event.source : `${event.name} (${event.source})`]),
+    el(
+      "dl",
+      {},
+      event.facts.flatMap((f) => [el("dt", {}, [f.label]), el("dd", {}, [f.value])]),
+    ),
+    list("Parts", event.parts),
+    list("Layers and objects", event.objects),
+    list("Notes", event.notes),
+  );
+  form.parts(event.parts);
+  if (event.parts.length) form.set("part", "all");
+  askEstimate();
+}
+
+function list(title: string, items: string[]): HTMLElement {
+  if (!items.length) return el("span", { hidden: true });
+  const open = items.length < 5;
+  return el("details", { class: "list", open }, [
+    el("summary", {}, [`${title} (${items.length})`]),
+    el(
+      "ul",
+      {},
+      items.map((i) => el("li", {}, [i])),
+    ),
+  ]);
+}
+
+const STAGES = ["pack", "triangulate", "regularize", "relax"];
+
+function onProgress(event: Progress): void {
+  if (!going || going.run !== event.run) announced = event.run;
+  going = event;
+  busy(true);
+  const at = STAGES.indexOf(event.stage);
+  const bars = STAGES.map((name, k) => {
+    const share = k < at ? 1 : k === at ? event.fraction : 0;
+    const bar = el("i", { style: `width:${(100 * share).toFixed(1)}%` });
+    return el("div", { class: k === at ? "bar now" : "bar" }, [el("span", {}, [name]), el("div", {}, [bar])]);
+  });
+  stages.replaceChildren(...bars);
+  const overall = at < 0 ? 0 : (100 * (at + event.fraction)) / STAGES.length;
+  stages.setAttribute("aria-valuenow", overall.toFixed(0));
+  status.textContent = `${event.draft ? "draft" : "grid"}: ${event.stage}, ${event.seconds.toFixed(1)} s`;
+}
+
+function busy(yes: boolean): void {
+  if (generate.disabled !== yes) showTabs();
+  generate.disabled = yes;
+  cancel.disabled = !yes;
+  stages.classList.toggle("idle", !yes);
+  if (!yes && link) {
+    status.textContent = "ready";
+    if (shownLive && shown) link.send({ kind: "look", run: shown, stage: null });
+  }
+}
+
+function onRuns(all: RunSummary[], newest: number | null): void {
+  const before = new Set(runs.map((r) => r.run));
+  runs = all;
+  const fresh = newest !== null && !before.has(newest);
+  if (fresh && newest >= shown) {
+    if (!firstGrid && began) firstGrid = performance.now() - began;
+    show(newest);
+  } else if (shown && !runs.some((r) => r.run === shown)) {
+    shown = 0;
+    view.clear();
+    report.show(null);
+  }
+  showTabs();
+  const options = runs.map((r) => el("option", { value: r.run, selected: r.run === shownB }, [name(r)]));
+  selectB.replaceChildren(...options);
+}
+
+function showTabs(): void {
+  const live = el(
+    "button",
+    { type: "button", class: "run live", title: "Watch the run that goes on" },
+    [el("b", {}, ["● live"]), "watch"],
+    {
+      onclick: () => (following = true),
+    },
+  );
+  tabs.replaceChildren(...runs.map(tab), ...(going ? [live] : []));
+}
+
+function name(run: RunSummary): string {
+  return `${run.run}: ${run.title}, ${run.detail}`;
+}
+
+function tab(run: RunSummary): HTMLElement {
+  const current = run.run === shown;
+  const q = run.fluency === null ? "∞" : run.fluency.toFixed(1);
+  return el(
+    "button",
+    {
+      type: "button",
+      role: "tab",
+      class: "run",
+      "aria-selected": String(current),
+      title: name(run),
+      "data-run": run.run,
+    },
+    [
+      el("b", {}, [`${run.title}`]),
+      el("span", {}, [run.detail]),
+      el("span", {}, [`${run.nodes.toLocaleString("en")} nodes · ${run.irregular} irregular · Q ${q}`]),
+    ],
+    {
+      onclick: () => {
+        following = false;
+        show(run.run);
+      },
+    },
+  );
+}
+
+function show(run: number): void {
+  shown = run;
+  picked = null;
+  tip.hidden = true;
+  editing.run(run);
+  link.send({ kind: "look", run, stage: null });
+  for (const button of tabs.querySelectorAll<HTMLElement>("[role=tab]")) {
+    button.setAttribute("aria-selected", String(button.dataset["run"] === String(run)));
+  }
+}
+
+function showLegend(frame: Frame): void {
+  const scale = frame.scale!;
+  const unit = scale.unit ? ` ${scale.unit}` : "";
+  const ends = scale.whole
+    ? ["≤ 4", "5", "6", "7", "≥ 8"]
+    : [0, 0.5, 1].map((s) => figure(scale.range[0] + s * (scale.range[1] - scale.range[0])) + unit);
+  const all = scale.whole ? "" : `all: ${figure(scale.extent[0])} to ${figure(scale.extent[1])}${unit}`;
+  legend.replaceChildren(
+    el("b", {}, [scale.label]),
+    el("div", { class: "bar", style: `background:${gradient(scale.whole)}` }),
+    el(
+      "div",
+      { class: "ends" },
+      ends.map((e) => el("span", {}, [e])),
+    ),
+    all && el("small", {}, [all]),
+    el("div", { class: "odd" }, [
+      el("i", { class: "black" }),
+      "too few members",
+      el("i", { class: "white" }),
+      "too many",
+    ]),
+  );
+  legend.hidden = false;
+}
+
+let suggesting: ReturnType<typeof setTimeout> | undefined;
+/** After an edit the old suggestions no longer hold. */
+function askSuggestions(): void {
+  clearTimeout(suggesting);
+  suggesting = setTimeout(() => link.send({ kind: "suggest", run: shown }), 400);
+}
+
+/* Wishes. */
+function askEstimate(): void {
+  clearTimeout(estimating);
+  estimating = setTimeout(() => link.send({ kind: "estimate", values: form.values() }), 150);
+}
+let estimating: ReturnType<typeof setTimeout> | undefined;
+form.onChange = askEstimate;
+
+function start(): void {
+  if (going) return;
+  began = performance.now();
+  [firstFrame, firstGrid, liveFrames] = [0, 0, 0];
+  following = true;
+  link.send({ kind: "generate", values: form.values() });
+}
+generate.onclick = start;
+cancel.onclick = () => link.send({ kind: "cancel" });
+surfaces.onchange = () => {
+  form.set("edge_length", "");
+  link.send({ kind: "open", name: surfaces.value });
+};
+openButton.onclick = () => fileInput.click();
+fileInput.onchange = () => {
+  const file = fileInput.files?.[0];
+  if (file) void open(file);
+  fileInput.value = "";
+};
+
+async function open(file: File): Promise<void> {
+  if (hello && file.size > hello.upload_limit) {
+    say(`${file.name} is larger than ${hello.upload_limit >> 20} MB`, true);
+    return;
+  }
+  status.textContent = `reading ${file.name} …`;
+  form.set("edge_length", "");
+  try {
+    const answer = await fetch(`open?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
+    if (answer.ok) say(`opened ${file.name}`);
+    else say(await answer.text(), true);
+  } catch {
+    say(`${file.name} could not be sent: is gridshell still running?`, true);
+  }
+  status.textContent = "ready";
+}
+
+stage.addEventListener("dragover", (e) => {
+  e.preventDefault();
+  stage.classList.add("drop");
+});
+stage.addEventListener("dragleave", () => stage.classList.remove("drop"));
+stage.addEventListener("drop", (e) => {
+  e.preventDefault();
+  stage.classList.remove("drop");
+  const file = e.dataTransfer?.files[0];
+  if (file) void open(file);
+});
+
+colorings.onchange = () => {
+  if (colorings.value && shown) {
+    link.send({ kind: "color", run: shown, by: colorings.value });
+    if (shownB) link.send({ kind: "color", run: shownB, by: colorings.value });
+    return;
+  }
+  legend.hidden = true;
+  for (const v of [view, viewB]) {
+    v?.grid.plain();
+    v?.redraw();
+  }
+};
+
+formats.onchange = () => {
+  const format = formats.value;
+  formats.value = "";
+  if (!shown) return say("generate a grid first", true);
+  download(`export?run=${shown}&format=${format}`, "");
+};
+
+picture.onclick = async () => {
+  const blob = await view.picture();
+  if (!blob) return;
+  const address = URL.createObjectURL(blob);
+  download(address, `${surface?.name ?? "view"}.png`);
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+};
+
+function download(address: string, as: string): void {
+  const a = el("a", { href: address, download: as });
+  document.body.append(a);
+  a.click();
+  a.remove();
+}
+
+function look(side: Side): void {
+  view.look(side);
+  viewB?.follow(view);
+  sideButtons.forEach((b, k) => b.classList.toggle("on", sides[k]![0] === side));
+}
+
+slice.oninput = () => {
+  view.slice(slice.valueAsNumber / 100);
+  viewB?.slice(slice.valueAsNumber / 100);
+};
+
+function flip(button: HTMLElement): boolean {
+  const on = button.getAttribute("aria-pressed") !== "true";
+  button.setAttribute("aria-pressed", String(on));
+  return on;
+}
+function pressed(button: HTMLElement): boolean {
+  return button.getAttribute("aria-pressed") === "true";
+}
+
+surfaceToggle.onclick = () => view.showsSurface(flip(surfaceToggle));
+measureToggle.onclick = () => {
+  from = null;
+  if (flip(measureToggle)) say("click on two points of the grid");
+};
+editToggle.onclick = () => {
+  const on = flip(editToggle);
+  editing.enable(on);
+  stage.classList.toggle("editing", on);
+  if (on && shown) askSuggestions();
+};
+compareToggle.onclick = () => {
+  const on = flip(compareToggle);
+  hostB.hidden = !on;
+  if (!on) {
+    viewB?.dispose();
+    viewB = null;
+    shownB = 0;
+    view.onCamera = null;
+    setTimeout(() => view.whole());
+    return;
+  }
+  viewB = new View(hostB);
+  dress();
+  if (surfaceFrame) viewB.showSurface(surfaceFrame);
+  const second = viewB;
+  view.onCamera = () => second.follow(view);
+  second.onCamera = () => view.follow(second);
+  const other = runs.filter((r) => r.run !== shown).at(-1) ?? runs.at(-1);
+  if (other) compareWith(other.run);
+  setTimeout(() => {
+    view.whole();
+    second.follow(view);
+  });
+};
+selectB.onchange = () => compareWith(Number(selectB.value));
+
+function compareWith(run: number): void {
+  shownB = run;
+  selectB.value = String(run);
+  link.send({ kind: "look", run, stage: null });
+  if (colorings.value) link.send({ kind: "color", run, by: colorings.value });
+}
+
+/* The pointer. */
+function ask(e: PointerEvent): void {
+  lastPointer = e;
+  if (asked || !shown || shownLive) return;
+  asked = true;
+  question++;
+  if (!link.send({ kind: "pick", run: shown, ...view.sight(e.clientX, e.clientY), question })) asked = false;
+}
+
+function onPicked(event: Picked): void {
+  asked = false;
+  picked = event;
+  if (!event.at || !lastPointer) {
+    tip.hidden = true;
+    editing.hovered([]);
+    view.grid.mark(editing.nodes);
+    view.redraw();
+    return;
+  }
+  const ends = event.node_first && event.node !== null ? [event.node] : (event.member ?? []);
+  view.grid.mark([...editing.nodes, ...ends]);
+  view.redraw();
+  tip.replaceChildren(...event.facts.map((f) => el("div", {}, [el("span", {}, [f.label]), f.value])));
+  const box = stage.getBoundingClientRect();
+  tip.style.left = `${Math.min(lastPointer.clientX - box.left + 16, box.width - 230)}px`;
+  tip.style.top = `${Math.min(lastPointer.clientY - box.top + 16, box.height - 110)}px`;
+  tip.hidden = false;
+  if (pressed(editToggle) && event.member) {
+    link.send({ kind: "hover", run: shown, nodes: event.member, question: event.question });
+  }
+}
+
+let boxFrom: [number, number] | null = null;
+view.canvas.addEventListener("pointermove", (e) => {
+  if (boxFrom) {
+    const box = stage.getBoundingClientRect();
+    const x = [boxFrom[0], e.clientX].map((v) => v - box.left).sort((a, b) => a - b);
+    const y = [boxFrom[1], e.clientY].map((v) => v - box.top).sort((a, b) => a - b);
+    rubber.style.cssText = `left:${x[0]}px;top:${y[0]}px;width:${x[1]! - x[0]!}px;height:${y[1]! - y[0]!}px`;
+    rubber.hidden = false;
+    return;
+  }
+  if (e.buttons === 0) ask(e);
+  else tip.hidden = true;
+});
+view.canvas.addEventListener("pointerleave", () => {
+  tip.hidden = true;
+});
+view.canvas.addEventListener("pointerdown", (e) => {
+  if (e.shiftKey && pressed(editToggle)) {
+    boxFrom = [e.clientX, e.clientY];
+    view.rotates(false);
+  }
+});
+view.canvas.addEventListener("pointerup", (e) => {
+  if (!boxFrom) return;
+  const box = view.canvas.getBoundingClientRect();
+  const x = [boxFrom[0], e.clientX].map((v) => ((v - box.left) / box.width) * 2 - 1).sort((a, b) => a - b);
+  const y = [boxFrom[1], e.clientY].map((v) => 1 - ((v - box.top) / box.height) * 2).sort((a, b) => a - b);
+  boxFrom = null;
+  rubber.hidden = true;
+  view.rotates(true);
+  const rectangle: [number, number, number, number] = [x[0]!, y[0]!, x[1]!, y[1]!];
+  link.send({ kind: "select", run: shown, matrix: view.matrix(), rectangle });
+});
+view.canvas.addEventListener("click", () => {
+  if (grabbed !== null && picked?.at) {
+    editing.onEdit?.({ op: "move", node: grabbed, to: picked.at });
+    grabbed = null;
+    return;
+  }
+  if (!pressed(measureToggle) || !picked?.at) return;
+  const at = picked.node_first && picked.node_at ? picked.node_at : picked.at;
+  if (from) {
+    link.send({ kind: "distance", from, to: at });
+    from = null;
+  } else {
+    from = at;
+  }
+});
+
+/* Keys and edits. */
+editing.onEdit = (edit) => link.send({ kind: "edit", run: shown, edit });
+editing.onUndo = () => link.send({ kind: "undo", run: shown });
+editing.onRedo = () => link.send({ kind: "redo", run: shown });
+editing.onSuggest = () => link.send({ kind: "suggest", run: shown });
+editing.onPoint = (nodes) => {
+  view.grid.mark(nodes);
+  view.redraw();
+};
+report.onStage = (stage) => link.send({ kind: "look", run: shown, stage });
+
+const OPERATIONS: Record<string, string> = { f: "flip", s: "split", c: "collapse", d: "drift" };
+
+document.addEventListener("keydown", (e) => {
+  const typing = e.target instanceof HTMLInputElement || e.target instanceof HTMLTextAreaElement;
+  if (e.key === "Enter" && (e.ctrlKey || e.metaKey)) return start();
+  if (typing || e.target instanceof HTMLSelectElement) return;
+  const key = e.key.toLowerCase();
+  if ((e.ctrlKey || e.metaKey) && key === "z") {
+    e.preventDefault();
+    link.send(e.shiftKey ? { kind: "redo", run: shown } : { kind: "undo", run: shown });
+    return;
+  }
+  if (e.ctrlKey || e.metaKey || e.altKey) return;
+  if (key === "escape") return cancelAll();
+  if (key === "e") return editToggle.click();
+  if (key === "m") return measureToggle.click();
+  const side = sides.find((s) => s[2] === key);
+  if (side) return look(side[0]);
+  if (pressed(editToggle)) editAt(key);
+  const op = OPERATIONS[key];
+  if (op && pressed(editToggle) && picked?.member) editing.onEdit?.({ op, nodes: picked.member });
+});
+
+/** The node that is moved by the next click. */
+let grabbed: number | null = null;
+
+/** Edits of the node or place under the pointer. */
+function editAt(key: string): void {
+  if (!picked?.at) return;
+  if (key === "a") editing.onEdit?.({ op: "add_anchor", at: picked.at });
+  const node = picked.node_first ? picked.node : null;
+  if (node === null) return;
+  if (key === "p") editing.onEdit?.({ op: "pin", node });
+  if (key === "u") editing.onEdit?.({ op: "unpin", node });
+  if (key === "g") {
+    grabbed = node;
+    say(`node ${node} goes to where you click next`);
+  }
+}
+
+function cancelAll(): void {
+  grabbed = null;
+  if (going) link.send({ kind: "cancel" });
+  editing.selected([], 0);
+  view.grid.mark([]);
+  view.redraw();
+}
+
+/* Light and dark. */
+const dark = matchMedia("(prefers-color-scheme: dark)");
+let chosen: "light" | "dark" | null = null;
+function dress(): void {
+  const name = chosen ?? (dark.matches ? "dark" : "light");
+  document.documentElement.dataset["theme"] = name;
+  view.dress(THEMES[name]);
+  viewB?.dress(THEMES[name]);
+}
+theme.onclick = () => {
+  chosen = document.documentElement.dataset["theme"] === "dark" ? "light" : "dark";
+  dress();
+};
+dark.addEventListener("change", dress);
+dress();
+report.show(null);
+look("perspective");
+
+let hiding: ReturnType<typeof setTimeout> | undefined;
+function say(message: string, bad = false): void {
+  toast.textContent = message;
+  toast.classList.toggle("bad", bad);
+  toast.hidden = false;
+  clearTimeout(hiding);
+  hiding = setTimeout(() => (toast.hidden = true), bad ? 12_000 : 5000);
+}
+
+/** For tests and measuring: what the page has seen. */
+Object.assign(window, {
+  studio: {
+    get seen() {
+      return { firstFrame, firstGrid, liveFrames, shown, announced, drawn: view.drawn, runs, picked };
+    },
+    project: (p: [number, number, number]) => view.project(p),
+  },
+});

@@ -1,0 +1,93 @@
+//! Edits of a grid that is kept: done, taken back, weighed beforehand.
+
+use crate::message::{Event, Step};
+use gridshell::edit::{Edit, Editor, Effect, Refusal};
+use gridshell::error::{Error, Result};
+use gridshell::pipeline;
+use gridshell::run::Run;
+use gridshell::surface::Model;
+use serde_json::Value;
+use std::sync::Arc;
+
+/// Suggestions made.
+const SUGGESTED: usize = 8;
+
+/// An editor for what came of a run on `model`.
+///
+/// # Errors
+/// What making the surface anew says.
+pub fn editor(model: &Model, run: &Run) -> Result<Editor> {
+    let (surface, _) = pipeline::surface(model, &run.recipe)?;
+    Ok(Editor::new(Arc::new(surface), run.grid.clone(), run.recipe.clone(), run.edge_length))
+}
+
+/// The edit that the page means.
+///
+/// # Errors
+/// [`Error::Option`] for what is none.
+pub fn parse(edit: Value) -> Result<Edit> {
+    serde_json::from_value(edit).map_err(|e| Error::Option(format!("not an edit: {e}")))
+}
+
+/// The history, to be told.
+pub fn history(run: u32, editor: &Editor) -> Event {
+    let told = |(edit, effect): (&Edit, &Effect)| step(editor, edit, &Ok(*effect));
+    Event::History {
+        run,
+        done: editor.history().map(told).collect(),
+        undone: editor.undone().map(told).collect(),
+    }
+}
+
+/// What each operation on a member would do.
+pub fn hover(run: u32, question: u32, editor: &Editor, [a, b]: [u32; 2]) -> Event {
+    let ways = if editor.grid().mesh.is_alive(a) && editor.grid().mesh.adjacent(a, b) {
+        editor.hover(a, b).iter().map(|(edit, effect)| step(editor, edit, effect)).collect()
+    } else {
+        Vec::new()
+    };
+    Event::Hovered { run, question, ways }
+}
+
+/// The edits that would better the grid most.
+pub fn suggest(run: u32, editor: &Editor) -> Event {
+    let steps = editor.suggest(SUGGESTED);
+    let steps = steps.into_iter().map(|(edit, effect)| step(editor, &edit, &Ok(effect))).collect();
+    Event::Suggested { run, steps }
+}
+
+fn step(editor: &Editor, edit: &Edit, effect: &std::result::Result<Effect, Refusal>) -> Step {
+    let (told, refusal, better) = match effect {
+        Ok(effect) => (told(effect), None, effect.gain() > 0.0),
+        Err(refusal) => (String::new(), Some(refusal.to_string()), false),
+    };
+    Step {
+        edit: serde_json::to_value(edit).unwrap_or_default(),
+        label: edit.to_string(),
+        effect: told,
+        refusal,
+        better,
+        at: place(editor, edit),
+    }
+}
+
+fn told(effect: &Effect) -> String {
+    let q = effect.fluency().map_or_else(|| "Q –".to_owned(), |q| format!("Q {q:+.2}"));
+    format!("{q}, R {:+.1}, \u{3bc} {:+.4}", effect.residual(), effect.mu())
+}
+
+/// The middle of the nodes that an edit names.
+fn place(editor: &Editor, edit: &Edit) -> Option<[f64; 3]> {
+    let nodes = match edit {
+        Edit::Flip { nodes }
+        | Edit::Split { nodes }
+        | Edit::Collapse { nodes }
+        | Edit::Drift { nodes, .. } => nodes.to_vec(),
+        Edit::Move { node, .. } | Edit::Pin { node } | Edit::Unpin { node } => vec![*node],
+        _ => return None,
+    };
+    let xyz: Option<Vec<glam::DVec3>> =
+        nodes.iter().map(|&v| editor.grid().xyz.get(v as usize).copied()).collect();
+    let xyz = xyz?;
+    Some((xyz.iter().sum::<glam::DVec3>() / xyz.len() as f64).to_array())
+}

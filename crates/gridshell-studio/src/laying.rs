@@ -1,0 +1,185 @@
+//! A run that goes on: a draft at once, then what was asked for, told and shown while it is laid.
+
+use crate::desk::{Desk, Opened};
+use crate::laid::Laid;
+use crate::message::{Event, Progress, Shows};
+use crate::scene;
+use gridshell::job::{self, Job, Picture};
+use gridshell::pipeline;
+use gridshell::recipe::{Effort, Recipe, RegularizeMethod};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Pictures follow each other no faster: 30 a second.
+const PICTURE_EVERY: Duration = Duration::from_millis(33);
+/// Messages on progress likewise.
+const TELL_EVERY: Duration = Duration::from_millis(100);
+/// Another candidate is shown when the one that is shown says nothing for so long.
+const PATIENCE: Duration = Duration::from_millis(300);
+
+/// What is known of the run that goes on.
+pub struct Going {
+    /// To stop it.
+    pub job: Job,
+    progress: Arc<Mutex<Progress>>,
+    began: Instant,
+}
+
+impl Going {
+    /// How far it is.
+    pub fn progress(&self) -> Progress {
+        let told = self.progress.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        Progress { seconds: self.began.elapsed().as_secs_f64(), ..told }
+    }
+}
+
+/// Begin to lay a grid. The draft gets the number `number`, the grid the next one.
+pub fn start(desk: &Arc<Desk>, opened: Arc<Opened>, recipe: Recipe, number: u32) -> Going {
+    let job = Job::default();
+    let began = Instant::now();
+    let progress = Progress {
+        run: number,
+        draft: has_draft(&recipe),
+        stage: "prepare".into(),
+        fraction: 0.0,
+        seconds: 0.0,
+    };
+    let progress = Arc::new(Mutex::new(progress));
+    let going = Going { job: job.clone(), progress: Arc::clone(&progress), began };
+    let desk = Arc::clone(desk);
+    std::thread::spawn(move || {
+        let mut end = End { desk: Arc::clone(&desk), told: None };
+        end.told = Some(lay_both(&desk, &opened, &recipe, &job, &progress, began, number));
+    });
+    going
+}
+
+/// Tells the desk that the run has ended, however it did.
+struct End {
+    desk: Arc<Desk>,
+    told: Option<Result<Option<u32>, String>>,
+}
+
+impl Drop for End {
+    fn drop(&mut self) {
+        match self.told.take() {
+            Some(Ok(run)) => self.desk.ended(run, None),
+            Some(Err(message)) => self.desk.ended(None, Some(message)),
+            None => self.desk.ended(
+                None,
+                Some("the run broke off: this is a fault of gridshell, please report it".into()),
+            ),
+        }
+    }
+}
+
+/// The draft comes first where the grid asked for takes longer.
+fn has_draft(recipe: &Recipe) -> bool {
+    recipe.effort != Effort::Draft && recipe.regularize.method == RegularizeMethod::Search
+}
+
+fn lay_both(
+    desk: &Arc<Desk>,
+    opened: &Arc<Opened>,
+    recipe: &Recipe,
+    job: &Job,
+    progress: &Arc<Mutex<Progress>>,
+    began: Instant,
+    number: u32,
+) -> Result<Option<u32>, String> {
+    if has_draft(recipe) {
+        let quick = Recipe { effort: Effort::Draft, candidates: None, ..recipe.clone() };
+        let draft = lay(desk, opened, &quick, job, progress, began, number)?;
+        if job.stopped() {
+            return Ok(Some(draft));
+        }
+    }
+    let next = Progress {
+        run: number + 1,
+        draft: false,
+        stage: "prepare".into(),
+        fraction: 0.0,
+        seconds: 0.0,
+    };
+    *progress.lock().unwrap_or_else(PoisonError::into_inner) = next;
+    lay(desk, opened, recipe, job, progress, began, number + 1).map(Some)
+}
+
+fn lay(
+    desk: &Arc<Desk>,
+    opened: &Arc<Opened>,
+    recipe: &Recipe,
+    job: &Job,
+    progress: &Arc<Mutex<Progress>>,
+    began: Instant,
+    number: u32,
+) -> Result<u32, String> {
+    let watcher = Mutex::new(Watcher::new(number));
+    let (shown_on, told_in) = (Arc::clone(desk), Arc::clone(progress));
+    let watched = job.clone().with_progress(move |p| {
+        // Who finds another thread at it has nothing to add.
+        if let Ok(mut watcher) = watcher.try_lock() {
+            watcher.see(p, &shown_on, &told_in, began);
+        }
+    });
+    let run = pipeline::generate(&opened.model, recipe, &watched).map_err(|e| e.to_string())?;
+    desk.keep(Laid::new(number, run, Arc::clone(opened)));
+    Ok(number)
+}
+
+/// Chooses what is shown of the many candidates: one, until it falls silent.
+struct Watcher {
+    number: u32,
+    candidate: usize,
+    heard: Option<Instant>,
+    shown: Option<Instant>,
+    told: Option<Instant>,
+    stage: &'static str,
+    fraction: f64,
+}
+
+impl Watcher {
+    fn new(number: u32) -> Watcher {
+        Watcher {
+            number,
+            candidate: 0,
+            heard: None,
+            shown: None,
+            told: None,
+            stage: "",
+            fraction: 0.0,
+        }
+    }
+
+    fn see(&mut self, p: &job::Progress, desk: &Desk, progress: &Mutex<Progress>, began: Instant) {
+        let now = Instant::now();
+        let long = |since: Option<Instant>, limit| since.is_none_or(|t| now - t >= limit);
+        if p.stage != self.stage {
+            (self.stage, self.fraction) = (p.stage, 0.0);
+        }
+        self.fraction = self.fraction.max(p.fraction);
+        if long(self.told, TELL_EVERY) {
+            self.told = Some(now);
+            let mut told = progress.lock().unwrap_or_else(PoisonError::into_inner);
+            told.stage = p.stage.into();
+            told.fraction = self.fraction;
+            told.seconds = began.elapsed().as_secs_f64();
+            desk.tell(Event::Progress(told.clone()));
+        }
+        if p.candidate != self.candidate && !long(self.heard, PATIENCE) {
+            return;
+        }
+        (self.candidate, self.heard) = (p.candidate, Some(now));
+        if !long(self.shown, PICTURE_EVERY) {
+            return;
+        }
+        match p.picture {
+            Picture::None => return,
+            Picture::Bubbles { xyz, scales, diameter } => {
+                desk.show_live(scene::bubbles(self.number, xyz, scales, diameter));
+            }
+            Picture::Grid(grid) => desk.show_live(scene::grid(Shows::Live, self.number, grid)),
+        }
+        self.shown = Some(now);
+    }
+}
