@@ -2,6 +2,7 @@
 
 mod args;
 mod convert;
+mod edit;
 mod failure;
 mod generate;
 mod handover;
@@ -33,6 +34,7 @@ fn main() -> ExitCode {
     let result = match &args.command {
         Command::Generate(args) => generate::run(args),
         Command::Measure(args) => measure::run(args),
+        Command::Edit(args) => edit::run(args),
         Command::Convert(args) => convert::run(args),
         Command::Inspect(args) => inspect::run(args),
         Command::Surfaces => surfaces::run(),
