@@ -1,7 +1,7 @@
 //! The arguments.
 
 use clap::{Args as ClapArgs, Parser, Subcommand};
-use gridshell::io::LengthUnit;
+use gridshell::io::{Choice, LengthUnit, Opening};
 use std::path::PathBuf;
 
 /// Triangular grids for free-form gridshells.
@@ -36,9 +36,36 @@ pub enum Command {
     Surfaces,
 }
 
+/// How the surface is read from its file.
+#[derive(ClapArgs)]
+pub struct Reading {
+    /// Faces that lie within this many metres of each other along their edges are joined; without it, what the file
+    /// or the size of the model suggests.
+    #[arg(long, value_name = "TOL", value_parser = positive, allow_negative_numbers = true)]
+    pub sew: Option<f64>,
+    /// Unit of a mesh file that states none, or the wrong one: mm, cm, m, in or ft. Without it metres.
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    pub units: Option<LengthUnit>,
+    /// Layer of a 3DM file to read, by name or path (`Roof::Panels`), with those below it; may be given more than
+    /// once. Without it all that the file shows.
+    #[arg(long, value_name = "NAME")]
+    pub layer: Vec<String>,
+    /// Object of a 3DM file to read, by name; may be given more than once.
+    #[arg(long, value_name = "NAME")]
+    pub object: Vec<String>,
+}
+
+impl Reading {
+    /// As the library takes it.
+    pub fn opening(&self) -> Opening {
+        let choice = Choice { layers: self.layer.clone(), objects: self.object.clone() };
+        Opening { sew: self.sew, unit: self.units, choice }
+    }
+}
+
 #[derive(ClapArgs)]
 pub struct Generate {
-    /// A file (STEP, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface.
+    /// A file (STEP, 3DM, IGES, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface.
     #[arg(default_value = "great-court")]
     pub surface: String,
     /// Which of several separate parts to lay the grid on: a number as `inspect` lists them, or `all` for one grid of
@@ -48,16 +75,11 @@ pub struct Generate {
     /// Wanted length of the members, metres.
     #[arg(short = 'l', long, value_name = "L", value_parser = positive, conflicts_with = "nodes", allow_negative_numbers = true)]
     pub edge_length: Option<f64>,
-    /// Unit of a mesh file that states none, or the wrong one: mm, cm, m, in or ft. Without it metres.
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    pub units: Option<LengthUnit>,
     /// Wanted number of nodes.
     #[arg(short, long, value_name = "N")]
     pub nodes: Option<usize>,
-    /// Faces that lie within this many metres of each other along their edges are joined; without it, what the file
-    /// or the size of the model suggests.
-    #[arg(long, value_name = "TOL", value_parser = positive, allow_negative_numbers = true)]
-    pub sew: Option<f64>,
+    #[command(flatten)]
+    pub reading: Reading,
     /// Seed of every random choice.
     #[arg(short, long, value_name = "S")]
     pub seed: Option<u64>,
@@ -123,13 +145,8 @@ pub struct Measure {
     /// The surface it was laid on: a file or a built-in name. Without it the grid itself is the surface.
     #[arg(short, long, value_name = "SURFACE")]
     pub surface: Option<String>,
-    /// Faces that lie within this many metres of each other along their edges are joined; without it, what the file
-    /// or the size of the model suggests.
-    #[arg(long, value_name = "TOL", value_parser = positive, allow_negative_numbers = true)]
-    pub sew: Option<f64>,
-    /// Unit of a mesh file that states none, or the wrong one: mm, cm, m, in or ft. Without it metres.
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    pub units: Option<LengthUnit>,
+    #[command(flatten)]
+    pub reading: Reading,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,
@@ -145,13 +162,8 @@ pub struct Edit {
     /// The surface it was laid on: a file or a built-in name. Without it the grid itself is the surface.
     #[arg(short, long, value_name = "SURFACE")]
     pub surface: Option<String>,
-    /// Faces that lie within this many metres of each other along their edges are joined; without it, what the file
-    /// or the size of the model suggests.
-    #[arg(long, value_name = "TOL", value_parser = positive, allow_negative_numbers = true)]
-    pub sew: Option<f64>,
-    /// Unit of a mesh file that states none, or the wrong one: mm, cm, m, in or ft. Without it metres.
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    pub units: Option<LengthUnit>,
+    #[command(flatten)]
+    pub reading: Reading,
     /// Where to write the edited grid (OBJ, PLY, STL, OFF by extension); may be given more than once.
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
@@ -165,15 +177,10 @@ pub struct Edit {
 
 #[derive(ClapArgs)]
 pub struct Inspect {
-    /// A file (STEP, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface.
+    /// A file (STEP, 3DM, IGES, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface.
     pub surface: String,
-    /// Faces that lie within this many metres of each other along their edges are joined; without it, what the file
-    /// or the size of the model suggests.
-    #[arg(long, value_name = "TOL", value_parser = positive, allow_negative_numbers = true)]
-    pub sew: Option<f64>,
-    /// Unit of a mesh file that states none, or the wrong one: mm, cm, m, in or ft. Without it metres.
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    pub units: Option<LengthUnit>,
+    #[command(flatten)]
+    pub reading: Reading,
     /// Draw it, in plan and in perspective (SVG or PNG by extension); may be given more than once.
     #[arg(long, value_name = "FILE")]
     pub picture: Vec<PathBuf>,

@@ -5,7 +5,7 @@ use crate::args::Edit;
 use crate::failure::Failure;
 use crate::{measure, say};
 use gridshell::edit::{Editor, Figures, Log};
-use gridshell::io::{self, GridFile, Opening};
+use gridshell::io::{self, GridFile};
 use gridshell::recipe::Recipe;
 use serde::Serialize;
 use std::fmt::Write;
@@ -38,7 +38,7 @@ struct Step {
 pub fn run(args: &Edit) -> Result<Outcome, Failure> {
     args.output.iter().try_for_each(|path| io::check_output(path))?;
     let log = args.log.as_deref().map(read_log).transpose()?;
-    let opening = Opening { sew: args.sew, unit: args.units };
+    let opening = args.reading.opening();
     let opened = measure::open(&args.grid, args.surface.as_deref(), &opening)?;
     let recipe = Recipe::default();
     let surface = Arc::new(opened.surface);

@@ -4,7 +4,7 @@ use crate::Outcome;
 use crate::args::Generate;
 use crate::failure::Failure;
 use crate::{progress, recipe, say, table};
-use gridshell::io::{self, GridFile, Opening};
+use gridshell::io::{self, GridFile};
 use gridshell::pipeline;
 use gridshell::run::Run;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(n));
         pool.build_global().map_err(Failure::other)?;
     }
-    let opening = Opening { sew: args.sew, unit: args.units };
+    let opening = args.reading.opening();
     let model = io::open_with(&args.surface, &opening).map_err(Failure::of_input)?;
     let (job, bar) = progress::job(args.time_limit);
     let run = pipeline::generate(&model, &recipe, &job);

@@ -5,7 +5,7 @@ use crate::args::Inspect;
 use crate::failure::Failure;
 use crate::{picture, say, table};
 use gridshell::inspect::{self, Inspection};
-use gridshell::io::{self, Opening};
+use gridshell::io;
 use serde::Serialize;
 
 /// The document of `--json`.
@@ -20,7 +20,7 @@ struct Document {
 
 pub fn run(args: &Inspect) -> Result<Outcome, Failure> {
     args.picture.iter().try_for_each(|file| picture::check(file))?;
-    let opening = Opening { sew: args.sew, unit: args.units };
+    let opening = args.reading.opening();
     let model = io::open_with(&args.surface, &opening).map_err(Failure::of_input)?;
     let inspection = inspect::inspect(&model)?;
     if !args.picture.is_empty() {

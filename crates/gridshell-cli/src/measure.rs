@@ -65,7 +65,7 @@ pub fn open(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Ope
 }
 
 pub fn run(args: &Measure) -> Result<Outcome, Failure> {
-    let opening = Opening { sew: args.sew, unit: args.units };
+    let opening = args.reading.opening();
     let opened = open(&args.grid, args.surface.as_deref(), &opening)?;
     let Opened { name, grid, surface, summary, edge_length, notes } = opened;
     let quality = measure(&grid, &surface, edge_length, &Recipe::default().measure);

@@ -26,7 +26,7 @@ const MOST_RUNS: usize = 12;
 const BACKLOG: usize = 256;
 /// Extensions of the files that can be opened.
 pub const ACCEPTS: [&str; 12] =
-    ["step", "stp", "iges", "igs", "obj", "ply", "stl", "off", "gltf", "glb", "json", "gridshell"];
+    ["step", "stp", "iges", "igs", "obj", "ply", "stl", "off", "gltf", "glb", "json", "3dm"];
 /// Extensions of the files that can be exported.
 const EXPORTS: [(&str, &str); 6] = [
     ("obj", "OBJ: panels, and members as lines"),

@@ -33,11 +33,13 @@
 mod anchor;
 mod change;
 mod effect;
+mod guide;
 mod line;
 mod log;
 mod operation;
 mod perform;
 mod refusal;
+mod row;
 mod suggest;
 mod workbench;
 
@@ -79,6 +81,16 @@ struct Entry {
     edit: Edit,
     effect: Effect,
     change: Change,
+    /// The surface on the other side of the change, where it changed too.
+    surface: Option<Arc<Surface>>,
+}
+
+/// What comes of an edit.
+struct Outcome {
+    effect: Effect,
+    grid: Grid,
+    /// The surface, where the edit changed it.
+    surface: Option<Arc<Surface>>,
 }
 
 impl Editor {
@@ -88,17 +100,11 @@ impl Editor {
         fix_corners(&surface, &mut grid, AT_CORNER * edge_length);
         grid.mesh.retire_removed();
         let start = log::digest(&grid, &recipe, edge_length);
-        let mut editor = Editor {
-            surface,
-            grid,
-            recipe,
-            edge_length,
-            start,
-            sums: Sums::default(),
-            irregular: 0,
-            done: Vec::new(),
-            undone: Vec::new(),
-        };
+        let (done, undone) = (Vec::new(), Vec::new());
+        let sums = Sums::default();
+        let irregular = 0;
+        let mut editor =
+            Editor { surface, grid, recipe, edge_length, start, sums, irregular, done, undone };
         editor.count();
         editor
     }
@@ -134,7 +140,20 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] where it would not be done.
     pub fn preview(&self, edit: &Edit) -> Result<Effect, Refusal> {
-        Workbench::new(self).carry_out(edit)
+        self.outcome(edit).map(|o| o.effect)
+    }
+
+    /// What comes of an edit.
+    fn outcome(&self, edit: &Edit) -> Result<Outcome, Refusal> {
+        match edit {
+            Edit::AddGuide { points } => guide::add(self, points),
+            Edit::RemoveGuide { nodes } => guide::remove(self, *nodes),
+            _ => {
+                let mut bench = Workbench::new(self);
+                let effect = bench.carry_out(edit)?;
+                Ok(Outcome { effect, grid: bench.into_grid(), surface: None })
+            }
+        }
     }
 
     /// What each operation on the member between `a` and `b` would do.
@@ -154,21 +173,19 @@ impl Editor {
     /// # Errors
     /// [`Refusal`], with the grid as it was.
     pub fn apply(&mut self, edit: Edit) -> Result<Effect, Refusal> {
-        let mut bench = Workbench::new(self);
-        let effect = bench.carry_out(&edit)?;
-        let mut change = Change::between(&self.grid, bench.grid());
-        change.swap(&mut self.grid);
-        self.count();
+        let Outcome { effect, grid, surface } = self.outcome(&edit)?;
+        let change = Change::between(&self.grid, &grid);
+        let mut entry = Entry { edit, effect, change, surface };
+        self.swap(&mut entry);
         self.undone.clear();
-        self.done.push(Entry { edit, effect, change });
+        self.done.push(entry);
         Ok(effect)
     }
 
     /// Take the last edit back; gives it.
     pub fn undo(&mut self) -> Option<&Edit> {
         let mut entry = self.done.pop()?;
-        entry.change.swap(&mut self.grid);
-        self.count();
+        self.swap(&mut entry);
         self.undone.push(entry);
         self.undone.last().map(|e| &e.edit)
     }
@@ -176,8 +193,7 @@ impl Editor {
     /// Do again what was taken back last; gives it.
     pub fn redo(&mut self) -> Option<&Edit> {
         let mut entry = self.undone.pop()?;
-        entry.change.swap(&mut self.grid);
-        self.count();
+        self.swap(&mut entry);
         self.done.push(entry);
         self.done.last().map(|e| &e.edit)
     }
@@ -190,6 +206,32 @@ impl Editor {
     /// What was taken back and can be done again, the next one first.
     pub fn undone(&self) -> impl DoubleEndedIterator<Item = (&Edit, &Effect)> + ExactSizeIterator {
         self.undone.iter().rev().map(|e| (&e.edit, &e.effect))
+    }
+
+    /// Go to the other side of an edit.
+    fn swap(&mut self, entry: &mut Entry) {
+        entry.change.swap(&mut self.grid);
+        if let Some(surface) = &mut entry.surface {
+            std::mem::swap(surface, &mut self.surface);
+        }
+        self.count();
+    }
+
+    /// Another editor with this one's wishes, to try something on.
+    fn on(&self, surface: Arc<Surface>, grid: Grid) -> Editor {
+        let mut editor = Editor {
+            surface,
+            grid,
+            recipe: self.recipe.clone(),
+            edge_length: self.edge_length,
+            start: String::new(),
+            sums: Sums::default(),
+            irregular: 0,
+            done: Vec::new(),
+            undone: Vec::new(),
+        };
+        editor.count();
+        editor
     }
 
     fn lambda(&self) -> f64 {

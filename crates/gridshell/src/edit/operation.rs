@@ -64,6 +64,17 @@ pub enum Edit {
         /// The node.
         node: u32,
     },
+    /// Bring the nearest row of nodes onto a line, which members follow from then on.
+    AddGuide {
+        /// Points of a polyline on the surface, metres.
+        points: Vec<[f64; 3]>,
+    },
+    /// Let members no longer follow the crease or guide, from one of its fixed nodes to the next, that this member is
+    /// on. Those two nodes stay fixed.
+    RemoveGuide {
+        /// A member on it.
+        nodes: [u32; 2],
+    },
     /// Regularise a region: try short runs of operations at its irregular nodes and keep what betters the grid.
     Heal {
         /// In its middle.
@@ -99,6 +110,8 @@ impl fmt::Display for Edit {
                 write!(f, "add an anchor at ({x:.3}, {y:.3}, {z:.3})")
             }
             Edit::RemoveAnchor { node } => write!(f, "remove the anchor at {node}"),
+            Edit::AddGuide { points } => write!(f, "add a guide of {} points", points.len()),
+            Edit::RemoveGuide { nodes: [a, b] } => write!(f, "remove the guide at {a}-{b}"),
             Edit::Heal { nodes, rings, .. } => {
                 write!(f, "heal {rings} rings round {}", Few(nodes))
             }

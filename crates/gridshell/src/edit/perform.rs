@@ -28,6 +28,9 @@ impl Workbench<'_> {
             Edit::Unpin { node } => self.unpin(node),
             Edit::AddAnchor { at } => self.add_anchor(at),
             Edit::RemoveAnchor { node } => self.remove_anchor(node),
+            Edit::AddGuide { .. } | Edit::RemoveGuide { .. } => {
+                unreachable!("what changes the surface is not done on a workbench")
+            }
             Edit::Heal { ref nodes, rings, seed } => self.heal(nodes, rings, seed),
             Edit::Relax { ref nodes, rings } => {
                 let region = self.region(nodes, rings)?;
@@ -226,7 +229,7 @@ impl Workbench<'_> {
     }
 
     /// Relax these nodes: the rest is pinned meanwhile.
-    fn relax(&mut self, region: Vec<u32>) -> Vec<u32> {
+    pub(super) fn relax(&mut self, region: Vec<u32>) -> Vec<u32> {
         let mut inside = vec![false; self.grid().mesh.slots()];
         for &v in &region {
             inside[v as usize] = true;

@@ -41,6 +41,11 @@ fn start(name: &str, length: f64, guided: bool) -> (Arc<Surface>, Grid, Recipe) 
     let recipe = Recipe { edge_length: Some(length), ..Recipe::default() };
     pack::settle(&surface, &mut bubbles, length, &recipe.pack, &crate::job::Job::default());
     let mut grid = triangulate::triangulate(&surface, &bubbles).expect("a manifold").0;
+    let mut few = recipe.clone();
+    few.regularize.method = crate::recipe::RegularizeMethod::Paper;
+    few.regularize.max_rounds = 1;
+    let job = crate::job::Job::default();
+    grid = crate::stages::regularize::regularize(&surface, grid, length, &few, 1, &job).0;
     crate::stages::relax::relax(&surface, &mut grid, &recipe, &crate::job::Job::default());
     grid.settle_exactly(&surface);
     (Arc::new(surface), grid, recipe)
@@ -115,6 +120,7 @@ proptest! {
         let mut editor = editor(which);
         let before = bits(&editor.grid);
         let euler = editor.grid.mesh.euler_characteristic();
+        assert_sound(&editor, euler);
         for draw in draws {
             let here = bits(&editor.grid);
             let edit = drawn(&editor, draw);
@@ -274,6 +280,51 @@ fn suggestions_do_what_they_say() {
     let (edit, effect) = suggested[0].clone();
     assert!(effect.gain() > 0.0);
     assert_eq!(editor.apply(edit), Ok(effect));
+}
+
+/// The nodes at the ends of members on features, and how far each is off the line from `p` to `q`.
+fn off_line(editor: &Editor, [p, q]: [DVec3; 2]) -> Vec<f64> {
+    let mesh = &editor.grid.mesh;
+    let on = mesh.vertices().filter(|&v| !mesh.along_features(v).is_empty());
+    let along = (q - p).normalize();
+    on.map(|v| (editor.grid.xyz[v as usize] - p).reject_from(along).length()).collect()
+}
+
+#[test]
+fn a_guide_is_followed_at_once_and_until_it_is_removed() {
+    let (surface, grid, recipe) = start("hexagon", 0.5, false);
+    let mut editor = Editor::new(surface, grid, recipe, 0.5);
+    let euler = editor.grid.mesh.euler_characteristic();
+    let before = bits(&editor.grid);
+    let ends = [DVec3::new(-2.0, -1.0, 0.0), DVec3::new(2.0, 1.5, 0.0)];
+    let points = ends.map(|p| p.to_array()).to_vec();
+    editor.apply(Edit::AddGuide { points: points.clone() }).expect("there is room");
+    assert_sound(&editor, euler);
+    let off = off_line(&editor, ends);
+    assert!(off.len() >= 8, "{off:?}");
+    assert!(off.iter().all(|d| *d < 1e-9), "{off:?}");
+    let text = reason(editor.preview(&Edit::AddGuide { points }));
+    assert!(text.starts_with("there is a crease or guide along that line"), "{text}");
+
+    let crossing = vec![[-1.5, 2.0, 0.0], [1.5, -1.5, 0.0]];
+    editor.apply(Edit::AddGuide { points: crossing }).expect("they may cross");
+    assert_sound(&editor, euler);
+    editor.apply(Edit::RelaxAll {}).expect("always done");
+    assert_sound(&editor, euler);
+
+    let mesh = &editor.grid.mesh;
+    let (a, b) = mesh.edges().find(|&(a, b)| mesh.is_feature_edge(a, b)).expect("a member on it");
+    let text = reason(editor.preview(&Edit::Flip { nodes: [a, b] }));
+    assert!(text.contains("follows a crease or guide"), "{text}");
+    editor.apply(Edit::RemoveGuide { nodes: [a, b] }).expect("it is on one");
+    assert_sound(&editor, euler);
+    assert!(!editor.grid.mesh.is_feature_edge(a, b));
+
+    let (after, log) = (bits(&editor.grid), editor.log());
+    while editor.undo().is_some() {}
+    assert_eq!(bits(&editor.grid), before);
+    editor.replay(&log).expect("it fits");
+    assert_eq!(bits(&editor.grid), after);
 }
 
 #[test]

@@ -33,9 +33,19 @@ impl<'a> Workbench<'a> {
         &self.state.grid
     }
 
+    /// The grid as it is now, to be kept.
+    pub fn into_grid(self) -> Grid {
+        self.state.grid
+    }
+
     /// Carry out an edit; gives its effect.
     pub fn carry_out(&mut self, edit: &Edit) -> Result<Effect, Refusal> {
         let changed = self.perform(edit)?;
+        self.conclude(changed)
+    }
+
+    /// Put what may have changed on the exact surface and look at its panels; gives the effect.
+    pub fn conclude(&mut self, changed: Vec<u32>) -> Result<Effect, Refusal> {
         self.settle(&changed);
         let near = self.near(changed);
         self.look_at_panels(&near)?;

@@ -1,5 +1,6 @@
 //! Readers and writers, one file per format, and surfaces by name.
 
+mod choice;
 mod compas;
 mod far;
 mod file;
@@ -13,6 +14,8 @@ mod merge;
 mod obj;
 mod off;
 mod ply;
+#[cfg(feature = "3dm")]
+mod rhino;
 mod scan;
 mod soup;
 pub mod step;
@@ -22,6 +25,7 @@ mod unit;
 mod values;
 mod weld;
 
+pub use choice::Choice;
 pub use grid_file::GridFile;
 pub use lines::{read_anchors, read_guides};
 pub use unit::LengthUnit;
@@ -37,7 +41,11 @@ const MESH_FORMATS: &str = "obj, ply, stl, off, gltf, glb, json";
 /// Extensions of the formats that a grid is written in.
 const GRID_FORMATS: &str = "obj, ply, stl, off";
 /// Extensions of all formats that hold a surface.
-const SURFACE_FORMATS: &str = "step, stp, iges, igs, obj, ply, stl, off, gltf, glb, json";
+const SURFACE_FORMATS: &str = "step, stp, 3dm, iges, igs, obj, ply, stl, off, gltf, glb, json";
+
+/// Roofs are between these sizes, metres.
+const LEAST_SIZE: f64 = 0.5;
+const MOST_SIZE: f64 = 1e4;
 
 /// How a file is to be opened.
 #[derive(Clone, Debug, Default)]
@@ -47,6 +55,8 @@ pub struct Opening {
     pub sew: Option<f64>,
     /// Unit of the lengths in a mesh file, where the file states none or the wrong one; without it metres.
     pub unit: Option<LengthUnit>,
+    /// Which objects are read, in a format that names them.
+    pub choice: Choice,
 }
 
 /// As [`open_with`], in the usual way.
@@ -81,18 +91,59 @@ pub fn open_with(name_or_path: &str, opening: &Opening) -> Result<Model> {
 /// # Errors
 /// [`Error::Io`], [`Error::Parse`] with line or entity, [`Error::Surface`] where the contents are no
 /// manifold surface, [`Error::Option`] listing the known extensions for an unknown one, where the sewing tolerance is
-/// too large for the model, or where a unit is given for a format that always states its own.
+/// too large for the model, where a unit is given for a format that always states its own, or objects are chosen
+/// that are not there.
 pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
-    let read = match extension(path).as_str() {
-        "step" | "stp" => step::read,
-        "iges" | "igs" => iges::read,
-        _ if mesh_reader(path).is_some() => return read_mesh_with(path, opening).map(Model::Mesh),
-        _ => return Err(unknown(path, SURFACE_FORMATS)),
-    };
+    if mesh_reader(path).is_some() {
+        return read_mesh_with(path, opening).map(Model::Mesh);
+    }
+    let mut model = match extension(path).as_str() {
+        "step" | "stp" => unnamed(path, opening).and_then(|()| step::read(path)).map(Model::Brep),
+        "iges" | "igs" => unnamed(path, opening).and_then(|()| iges::read(path)).map(Model::Brep),
+        "3dm" => rhino(path, &opening.choice),
+        _ => Err(unknown(path, SURFACE_FORMATS)),
+    }?;
     refuse_unit(path, opening)?;
-    let mut brep = read(path)?;
-    sew(&mut brep, opening.sew)?;
-    Ok(Model::Brep(brep))
+    let odd = odd_size(model.size());
+    if let Model::Brep(brep) = &mut model {
+        sew(brep, opening.sew)?;
+        brep.notes.extend(odd);
+    }
+    Ok(model)
+}
+
+/// A word on a model that no one builds at its size: its file most likely states the wrong unit.
+fn odd_size(size: f64) -> Option<String> {
+    (size < LEAST_SIZE || size > MOST_SIZE).then(|| {
+        format!(
+            "the model is {size:.3e} m across by the unit that its file states; if it should not be, mend the unit \
+             in the program that wrote it"
+        )
+    })
+}
+
+#[cfg(feature = "3dm")]
+fn rhino(path: &Path, choice: &Choice) -> Result<Model> {
+    rhino::read(path, choice)
+}
+
+#[cfg(not(feature = "3dm"))]
+fn rhino(path: &Path, _: &Choice) -> Result<Model> {
+    Err(Error::Option(format!(
+        "{}: this program was built without Rhino files; build it with `--features 3dm`, or export STEP from Rhino",
+        path.display()
+    )))
+}
+
+/// Refuse a choice among objects where none has a name.
+fn unnamed(path: &Path, opening: &Opening) -> Result<()> {
+    if opening.choice.is_all() {
+        return Ok(());
+    }
+    Err(Error::Option(format!(
+        "{}: layers and objects are chosen in 3DM files only; leave out `--layer` and `--object`",
+        path.display()
+    )))
 }
 
 fn refuse_unit(path: &Path, opening: &Opening) -> Result<()> {
@@ -118,6 +169,7 @@ pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
 /// As [`load`].
 pub fn read_mesh_with(path: &Path, opening: &Opening) -> Result<PolygonMesh> {
     let read = mesh_reader(path).ok_or_else(|| unknown(path, MESH_FORMATS))?;
+    unnamed(path, opening)?;
     if matches!(extension(path).as_str(), "gltf" | "glb") {
         refuse_unit(path, opening)?;
     }

@@ -16,6 +16,7 @@ pub mod curve;
 mod cut;
 pub mod direction;
 pub(crate) mod ear;
+mod extend;
 pub mod facets;
 pub mod feature;
 mod fill;
@@ -70,6 +71,7 @@ use glam::DVec3;
 use track::Tracks;
 
 /// A design surface, ready to carry a grid.
+#[derive(Clone)]
 pub struct Surface {
     /// Built-in name or file stem.
     pub name: String,
