@@ -1,19 +1,18 @@
 //! What is on the desk: the open surface, the runs laid on it, and the one that goes on. All tabs see the same desk.
 
-use crate::editing;
 use crate::form::{self, Values};
+use crate::laid::Laid;
 use crate::laying::{self, Going};
-use crate::message::{Event, Fact, Hello, Named, Request, RunSummary, Shows, SurfaceInfo};
-use crate::{color, measures, pick, scene};
+use crate::message::{Event, Request, RunSummary, Shows, SurfaceInfo};
+use crate::told::{self, EXPORTS};
+use crate::{color, editing, measures, pick, scene};
 use axum::body::Bytes;
 use glam::DVec3;
 use gridshell::edit::Editor;
 use gridshell::error::{Error, Result};
-use gridshell::grid::Grid;
-use gridshell::inspect::{self, Inspection, Sketch};
+use gridshell::inspect::{self, Sketch};
 use gridshell::recipe::Recipe;
-use gridshell::run::Run;
-use gridshell::stages::measure::{Quality, irregular_nodes, measure};
+use gridshell::stages::measure::irregular_nodes;
 use gridshell::surface::{Model, Surface, builtin};
 use gridshell::{io, pipeline};
 use std::path::Path;
@@ -24,20 +23,6 @@ use tokio::sync::{broadcast, watch};
 const MOST_RUNS: usize = 12;
 /// Events that a slow tab may fall behind before it is sent everything anew.
 const BACKLOG: usize = 256;
-/// Extensions of the files that can be opened.
-pub const ACCEPTS: [&str; 12] =
-    ["step", "stp", "iges", "igs", "obj", "ply", "stl", "off", "gltf", "glb", "json", "3dm"];
-/// Extensions of the files that can be exported.
-const EXPORTS: [(&str, &str); 6] = [
-    ("obj", "OBJ: panels, and members as lines"),
-    ("ply", "PLY: panels"),
-    ("stl", "STL: panels"),
-    ("off", "OFF: panels"),
-    ("run.json", "JSON: the run document, all measures"),
-    ("edits.json", "JSON: the log of edits, for `gridshell edit`"),
-];
-/// Largest file that can be opened, bytes.
-pub const UPLOAD_LIMIT: usize = 64 << 20;
 
 /// What goes to a tab.
 #[derive(Clone, Debug)]
@@ -56,91 +41,6 @@ pub struct Opened {
     pub sketch: Surface,
     info: SurfaceInfo,
     frame: Bytes,
-}
-
-/// A run that is kept.
-pub struct Laid {
-    number: u32,
-    /// What came out.
-    run: Run,
-    /// What it was laid on.
-    opened: Arc<Opened>,
-    now: Mutex<Now>,
-}
-
-/// A run's grid as it is now.
-struct Now {
-    grid: Arc<Grid>,
-    quality: Quality,
-    /// From the first edit on.
-    editor: Option<Editor>,
-}
-
-impl Laid {
-    /// Keep what came of run `number`.
-    pub fn new(number: u32, run: Run, opened: Arc<Opened>) -> Laid {
-        let now =
-            Now { grid: Arc::new(run.grid.clone()), quality: run.quality.clone(), editor: None };
-        Laid { number, run, opened, now: Mutex::new(now) }
-    }
-
-    fn now(&self) -> MutexGuard<'_, Now> {
-        self.now.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn grid(&self) -> Arc<Grid> {
-        Arc::clone(&self.now().grid)
-    }
-
-    fn summary(&self) -> RunSummary {
-        let now = self.now();
-        let effort = format!("{:?}", self.run.recipe.effort).to_lowercase();
-        let edits = now.editor.as_ref().map_or(0, |e| e.history().len());
-        let edited = match edits {
-            0 => String::new(),
-            1 => ", 1 edit".into(),
-            n => format!(", {n} edits"),
-        };
-        RunSummary {
-            run: self.number,
-            title: self.run.surface.name.clone(),
-            detail: format!(
-                "{:.3} m, {effort}, seed {}{edited}",
-                self.run.edge_length, self.run.seed
-            ),
-            nodes: now.quality.nodes as u32,
-            fluency: now.quality.fluency,
-            irregular: (now.quality.irregular.interior + now.quality.irregular.boundary) as u32,
-        }
-    }
-
-    /// Work with the editor, which is made when it is first asked for.
-    fn edit<T>(&self, work: impl FnOnce(&mut Editor) -> Result<T>) -> Result<T> {
-        let mut now = self.now();
-        if now.editor.is_none() {
-            now.editor = Some(editing::editor(&self.opened.model, &self.run)?);
-            now.renew(&self.run);
-        }
-        let editor = now.editor.as_mut().expect("it was made just now");
-        work(editor)
-    }
-
-    /// Change the grid.
-    fn change(&self, work: impl FnOnce(&mut Editor) -> Result<()>) -> Result<()> {
-        self.edit(work)?;
-        self.now().renew(&self.run);
-        Ok(())
-    }
-}
-
-impl Now {
-    /// Take over the editor's grid.
-    fn renew(&mut self, run: &Run) {
-        let Some(editor) = &self.editor else { return };
-        self.grid = Arc::new(editor.grid().clone());
-        self.quality =
-            measure(&editor.finished(), editor.surface(), run.edge_length, &run.recipe.measure);
-    }
 }
 
 #[derive(Default)]
@@ -182,7 +82,7 @@ impl Desk {
     /// Everything that a new tab has to know.
     pub fn greeting(&self) -> Vec<Outgoing> {
         let state = self.state();
-        let mut all = vec![Outgoing::Event(Event::Hello(hello()))];
+        let mut all = vec![Outgoing::Event(Event::Hello(told::hello()))];
         if let Some(opened) = &state.opened {
             all.extend(shown(opened));
         }
@@ -316,7 +216,7 @@ impl Desk {
     fn put(&self, model: Model) -> Result<()> {
         let inspection = inspect::inspect(&model)?;
         let Sketch { surface: sketch, .. } = inspect::sketch(&model)?;
-        let info = info(&inspection, &sketch);
+        let info = told::info(&inspection, &sketch);
         let frame = scene::surface(&sketch);
         let opened = Arc::new(Opened { model, sketch, info, frame });
         self.cancel();
@@ -404,29 +304,7 @@ impl Desk {
             return Err(Error::Option(format!("no format `{extension}`")));
         }
         let laid = self.laid(run)?;
-        let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
-        let name: String = laid.run.surface.name.chars().map(plain).collect();
-        let name = format!("{name}-{run}.{extension}");
-        let unwritten = |e: &dyn std::fmt::Display| Error::Option(format!("{name}: {e}"));
-        match extension {
-            "run.json" => {
-                let text = serde_json::to_vec_pretty(&laid.run).map_err(|e| unwritten(&e))?;
-                return Ok((name, text));
-            }
-            "edits.json" => {
-                let text = laid.edit(|editor| Ok(editor.log().to_json()))?;
-                return Ok((name, text.into_bytes()));
-            }
-            _ => {}
-        }
-        let folder = tempfile::tempdir().map_err(|e| unwritten(&e))?;
-        let path = folder.path().join(&name);
-        let now = laid.now();
-        let grid = now.editor.as_ref().map_or_else(|| laid.run.grid.clone(), Editor::finished);
-        drop(now);
-        write(&laid.run, &grid, &path)?;
-        let bytes = std::fs::read(&path).map_err(|e| unwritten(&e))?;
-        Ok((name, bytes))
+        laid.file(extension)
     }
 
     /// Change a run's grid; every tab is told.
@@ -506,38 +384,6 @@ fn edge_length(opened: &Opened, recipe: &Recipe) -> Result<f64> {
     }
 }
 
-fn write(run: &Run, grid: &Grid, path: &Path) -> Result<()> {
-    let triangles: Vec<_> = grid.mesh.triangles().collect();
-    let edges: Vec<_> = grid.mesh.edges().collect();
-    let header = [
-        format!(
-            "gridshell {}: grid on {}",
-            run.version,
-            run.surface.name.replace(char::is_control, " ")
-        ),
-        format!("edge length {} m, seed {}, lengths in metres", run.edge_length, run.seed),
-    ];
-    let file =
-        io::GridFile { xyz: &grid.xyz, triangles: &triangles, edges: &edges, header: &header };
-    io::write(path, &file)
-}
-
-fn hello() -> Hello {
-    let named = |name: &str, description: &str| Named {
-        name: name.into(),
-        description: description.into(),
-    };
-    Hello {
-        version: env!("CARGO_PKG_VERSION").into(),
-        builtins: builtin::ALL.iter().map(|b| named(b.name, b.description)).collect(),
-        form: form::fields(),
-        colorings: color::colorings(),
-        accepts: ACCEPTS.map(str::to_owned).to_vec(),
-        exports: EXPORTS.iter().map(|e| named(e.0, e.1)).collect(),
-        upload_limit: UPLOAD_LIMIT as u32,
-    }
-}
-
 fn runs(state: &State) -> Event {
     let runs: Vec<RunSummary> = state.runs.iter().map(|r| r.summary()).collect();
     Event::Runs { newest: runs.last().map(|r| r.run), runs }
@@ -545,53 +391,4 @@ fn runs(state: &State) -> Event {
 
 fn shown(opened: &Opened) -> [Outgoing; 2] {
     [Outgoing::Event(Event::Surface(opened.info.clone())), Outgoing::Frame(opened.frame.clone())]
-}
-
-fn info(inspection: &Inspection, sketch: &Surface) -> SurfaceInfo {
-    let surface = &inspection.surface;
-    let known = builtin::ALL.iter().find(|b| b.name == surface.name);
-    let edge_length = known.map_or_else(|| pipeline::length_for(sketch, 1000), |b| b.edge_length);
-    let fact = |label: &str, value: String| Fact { label: label.into(), value };
-    let size = [0, 1, 2].map(|k| surface.bounds.max[k] - surface.bounds.min[k]);
-    let mut facts = vec![
-        fact("Area", format!("{:.1} m²", surface.area)),
-        fact("Size", format!("{:.1} × {:.1} × {:.1} m", size[0], size[1], size[2])),
-        fact(
-            "Patches",
-            if surface.patches == 0 { "a mesh".into() } else { surface.patches.to_string() },
-        ),
-        fact("Boundary", format!("{} loops, {} corners", surface.loops, surface.corners)),
-    ];
-    if !inspection.creases.is_empty() {
-        facts.push(fact("Creases", inspection.creases.len().to_string()));
-    }
-    let several = inspection.parts.len() > 1;
-    let mut objects: Vec<String> = inspection
-        .source
-        .objects
-        .iter()
-        .map(|o| {
-            [o.layer.as_str(), o.name.as_str()]
-                .into_iter()
-                .filter(|s| !s.is_empty())
-                .collect::<Vec<_>>()
-                .join(" / ")
-        })
-        .filter(|s| !s.is_empty())
-        .collect();
-    objects.dedup();
-    SurfaceInfo {
-        name: surface.name.clone(),
-        source: known.map_or_else(|| inspection.source.format.clone(), |b| b.description.into()),
-        facts,
-        parts: if several {
-            inspection.parts.iter().map(gridshell::run::PartSummary::told).collect()
-        } else {
-            Vec::new()
-        },
-        objects,
-        notes: surface.notes.clone(),
-        edge_length,
-        bounds: [surface.bounds.min, surface.bounds.max],
-    }
 }

@@ -295,9 +295,8 @@ pub fn recipe(values: &Values) -> Result<Recipe> {
         let value = match key.as_str() {
             "method" | "vector" => continue,
             _ if value.is_null() => continue,
-            "size" => json!({ "kind": value }),
             "direction" if value == "vector" => vector(text("vector").unwrap_or_default())?,
-            "direction" => json!({ "kind": value }),
+            "size" | "direction" => json!({ "kind": value }),
             "anchors" => points(value.as_str().unwrap_or_default())?,
             "nodes" | "candidates" | "seed" => whole(key, value)?,
             _ => value.clone(),

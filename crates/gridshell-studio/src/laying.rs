@@ -1,6 +1,7 @@
 //! A run that goes on: a draft at once, then what was asked for, told and shown while it is laid.
 
-use crate::desk::{Desk, Laid, Opened};
+use crate::desk::{Desk, Opened};
+use crate::laid::Laid;
 use crate::message::{Event, Progress, Shows};
 use crate::scene;
 use gridshell::job::{self, Job, Picture};

@@ -17,6 +17,7 @@ mod editing;
 mod form;
 mod frame;
 mod guard;
+mod laid;
 mod laying;
 mod measures;
 pub mod message;
@@ -24,6 +25,7 @@ mod page;
 mod pick;
 mod scene;
 mod server;
+mod told;
 
 pub use server::Log;
 

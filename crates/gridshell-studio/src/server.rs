@@ -1,9 +1,10 @@
 //! The server: the page's files, one socket for each tab, files in and out. All of it behind the [`Guard`].
 
-use crate::desk::{self, ACCEPTS, Desk, Outgoing, UPLOAD_LIMIT};
+use crate::desk::{self, Desk, Outgoing};
 use crate::guard::Guard;
 use crate::message::Request as Wish;
 use crate::page::Page;
+use crate::told::{ACCEPTS, UPLOAD_LIMIT};
 use axum::Router;
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
@@ -14,6 +15,7 @@ use axum::middleware::{self, Next};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use serde::Deserialize;
+use std::future::{Ready, ready};
 use std::sync::Arc;
 use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::mpsc;
@@ -58,6 +60,8 @@ pub fn router(server: Arc<Server>) -> Router {
 async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next) -> Response {
     let checked = server.guard.check(request.method(), request.uri().path(), request.headers());
     let mut response = match checked {
+        // Before a byte of it is read.
+        Ok(()) if length(&request) > UPLOAD_LIMIT as u64 => too_large(&server),
         Ok(()) => next.run(request).await,
         Err(reason) => {
             (server.log)(&format!("refused: {reason}"));
@@ -76,15 +80,27 @@ async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next
     response
 }
 
-async fn index(State(server): State<Arc<Server>>) -> Response {
-    page_file(&server, "")
+/// How long a request says that its body is.
+fn length(request: &Request) -> u64 {
+    let told = request.headers().get(header::CONTENT_LENGTH);
+    told.and_then(|v| v.to_str().ok()?.parse().ok()).unwrap_or(0)
 }
 
-async fn file(
+fn too_large(server: &Server) -> Response {
+    let message = format!("the file is larger than {} MB", UPLOAD_LIMIT >> 20);
+    (server.log)(&format!("refused a file: {message}"));
+    (StatusCode::PAYLOAD_TOO_LARGE, message).into_response()
+}
+
+fn index(State(server): State<Arc<Server>>) -> Ready<Response> {
+    ready(page_file(&server, ""))
+}
+
+fn file(
     State(server): State<Arc<Server>>,
     Path((_, name)): Path<(String, String)>,
-) -> Response {
-    page_file(&server, &name)
+) -> Ready<Response> {
+    ready(page_file(&server, &name))
 }
 
 fn page_file(server: &Server, name: &str) -> Response {
@@ -110,13 +126,7 @@ async fn open(
         (server.log)(&format!("refused a file: {message}"));
         (status, message).into_response()
     };
-    let Ok(bytes) = body else {
-        let limit = UPLOAD_LIMIT >> 20;
-        return refuse(
-            StatusCode::PAYLOAD_TOO_LARGE,
-            format!("the file is larger than {limit} MB"),
-        );
-    };
+    let Ok(bytes) = body else { return too_large(&server) };
     let Some(name) = file_name(&name) else {
         let known = ACCEPTS.join(", ");
         return refuse(
@@ -180,9 +190,9 @@ fn escaped(name: &str) -> String {
         .collect()
 }
 
-async fn socket(State(server): State<Arc<Server>>, upgrade: WebSocketUpgrade) -> Response {
+fn socket(State(server): State<Arc<Server>>, upgrade: WebSocketUpgrade) -> Ready<Response> {
     let limited = upgrade.max_message_size(MESSAGE_LIMIT).max_frame_size(MESSAGE_LIMIT);
-    limited.on_upgrade(move |socket| converse(socket, server))
+    ready(limited.on_upgrade(move |socket| converse(socket, server)))
 }
 
 /// One tab, until it goes.

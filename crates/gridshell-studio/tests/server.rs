@@ -1,5 +1,7 @@
 //! The server from outside: who is let in, what is refused, and that nothing is lost.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use futures_util::{SinkExt, StreamExt};
 use gridshell_studio::{Options, Studio};
 use serde_json::{Value, json};

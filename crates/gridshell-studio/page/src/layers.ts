@@ -216,7 +216,12 @@ export class GridLayer {
     for (let k = 0; k < odd.length; k++) fill.fill(excess[k]! < 0 ? 0.01 : 1, 3 * k, 3 * k + 3);
     put(this.nodes.geometry, "position", gather(xyz, odd), 3);
     put(this.nodes.geometry, "fill", fill, 3);
-    put(this.nodes.geometry, "size", new Float32Array(odd.length).fill(xyz.length > 2400 ? 8.5 : 11), 1);
+    put(
+      this.nodes.geometry,
+      "size",
+      new Float32Array(odd.length).fill(xyz.length > 24000 ? 6.5 : xyz.length > 2400 ? 8.5 : 11),
+      1,
+    );
     this.width = xyz.length > 2400 ? 1.15 : 1.6;
     if (was !== "live" || frame.shows !== "live") this.plain();
     this.mark([]);
@@ -296,7 +301,7 @@ export class GridLayer {
     for (let k = 0; k < nodes.length; k++) color.toArray(fill, 3 * k);
     put(this.marks.geometry, "position", at, 3);
     put(this.marks.geometry, "fill", fill, 3);
-    put(this.marks.geometry, "size", new Float32Array(nodes.length).fill(16), 1);
+    put(this.marks.geometry, "size", new Float32Array(nodes.length).fill(13), 1);
   }
 
   dress(theme: Theme, planes: Plane[]): void {

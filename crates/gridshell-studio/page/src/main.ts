@@ -166,7 +166,9 @@ function onEvent(event: Event): void {
       if (event.question === question) editing.hovered(event.ways);
       return;
     case "history":
-      if (event.run === shown) editing.history(event.done, event.undone);
+      if (event.run !== shown) return;
+      editing.history(event.done, event.undone);
+      if (pressed(editToggle)) askSuggestions();
       return;
     case "suggested":
       if (event.run === shown) editing.suggested(event.steps);
@@ -415,6 +417,13 @@ function showLegend(frame: Frame): void {
   legend.hidden = false;
 }
 
+let suggesting: ReturnType<typeof setTimeout> | undefined;
+/** After an edit the old suggestions no longer hold. */
+function askSuggestions(): void {
+  clearTimeout(suggesting);
+  suggesting = setTimeout(() => link.send({ kind: "suggest", run: shown }), 400);
+}
+
 /* Wishes. */
 function askEstimate(): void {
   clearTimeout(estimating);
@@ -536,7 +545,7 @@ editToggle.onclick = () => {
   const on = flip(editToggle);
   editing.enable(on);
   stage.classList.toggle("editing", on);
-  if (on && shown) link.send({ kind: "suggest", run: shown });
+  if (on && shown) askSuggestions();
 };
 compareToggle.onclick = () => {
   const on = flip(compareToggle);
@@ -614,6 +623,7 @@ view.canvas.addEventListener("pointermove", (e) => {
     return;
   }
   if (e.buttons === 0) ask(e);
+  else tip.hidden = true;
 });
 view.canvas.addEventListener("pointerleave", () => {
   tip.hidden = true;
