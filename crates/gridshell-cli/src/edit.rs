@@ -61,7 +61,9 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
     let (schema, version) = ("gridshell.edit/1", env!("CARGO_PKG_VERSION"));
     if args.json {
         say::json(&Document { schema, version, before, edits, suggested })?;
-        wrote.iter().for_each(|w| say::note(w));
+        for w in &wrote {
+            say::note(w);
+        }
     } else {
         say::result(&table(&before, &edits, &suggested, &wrote))?;
     }

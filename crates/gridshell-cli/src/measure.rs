@@ -82,7 +82,9 @@ pub fn run(args: &Measure) -> Result<Outcome, Failure> {
         })?;
     } else {
         say::result(&table::grid(&name, &quality))?;
-        notes.iter().for_each(|n| say::note(&format!("note: {n}")));
+        for n in &notes {
+            say::note(&format!("note: {n}"));
+        }
     }
     Ok(Outcome::Done)
 }

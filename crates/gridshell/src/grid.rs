@@ -337,11 +337,10 @@ impl Place {
     /// The exact position on the design surface.
     pub fn exact(&self, surface: &Surface) -> DVec3 {
         match self {
-            Place::Interior(p) => surface.exact(p),
-            Place::Feature(c) => surface.features[c.chain as usize].exact(surface, c.s),
             // Fixed vertices of the carrier are exact as they stand.
             Place::Fixed(p) if p.bary.contains(&1.0) => surface.carrier.xyz(p),
-            Place::Fixed(p) => surface.exact(p),
+            Place::Interior(p) | Place::Fixed(p) => surface.exact(p),
+            Place::Feature(c) => surface.features[c.chain as usize].exact(surface, c.s),
             Place::Boundary(c) | Place::Corner(c) => {
                 surface.loops[c.chain as usize].exact(surface, c.s)
             }

@@ -166,6 +166,8 @@ impl Hash {
         };
         self.bytes(&[kind]);
         self.bytes(&of.to_le_bytes());
-        numbers.into_iter().for_each(|x| self.number(x));
+        for x in numbers {
+            self.number(x);
+        }
     }
 }

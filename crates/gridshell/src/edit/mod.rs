@@ -3,9 +3,8 @@
 //!
 //! ```
 //! use gridshell::edit::{Edit, Editor};
-//! use gridshell::surface::{Sampling, builtin};
 //! use gridshell::{io, job::Job, pipeline, recipe::Recipe};
-//! # use gridshell::recipe::Effort;
+//! # use gridshell::{recipe::Effort, surface::Sampling};
 //! use std::sync::Arc;
 //!
 //! let recipe = Recipe { edge_length: Some(0.8), effort: Effort::Draft, ..Recipe::default() };

@@ -237,11 +237,15 @@ impl Workbench<'_> {
         let mesh = &self.grid().mesh;
         let rest = mesh.vertices().filter(|&v| !inside[v as usize] && !mesh.is_pinned(v));
         let held: Vec<u32> = rest.collect();
-        held.iter().for_each(|&v| self.state.grid.mesh.pin(v, true));
+        for &v in &held {
+            self.state.grid.mesh.pin(v, true);
+        }
         self.state.remember(&region);
         let editor = self.editor;
         relax(&editor.surface, &mut self.state.grid, &editor.recipe, &Job::default());
-        held.iter().for_each(|&v| self.state.grid.mesh.pin(v, false));
+        for &v in &held {
+            self.state.grid.mesh.pin(v, false);
+        }
         region
     }
 }

@@ -15,7 +15,7 @@ impl Editor {
     /// The `n` edits of a single member near irregular nodes that gain most (see [`Effect::gain`]), best first; fewer
     /// where fewer gain anything.
     pub fn suggest(&self, n: usize) -> Vec<(Edit, Effect)> {
-        let edits = self.hopeful();
+        let edits = if n > 0 { self.hopeful() } else { Vec::new() };
         let mut found: Vec<(Edit, Effect)> = edits
             .into_par_iter()
             .map_init(

@@ -114,7 +114,7 @@ pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
 
 /// A word on a model that no one builds at its size: its file most likely states the wrong unit.
 fn odd_size(size: f64) -> Option<String> {
-    (size < LEAST_SIZE || size > MOST_SIZE).then(|| {
+    (!(LEAST_SIZE..=MOST_SIZE).contains(&size)).then(|| {
         format!(
             "the model is {size:.3e} m across by the unit that its file states; if it should not be, mend the unit \
              in the program that wrote it"

@@ -29,6 +29,7 @@ impl Surface {
     }
 
     /// A copy in which members need not follow feature `chain` any more. Its ends stay fixed.
+    #[must_use]
     pub fn without_feature(&self, chain: u32, corner_angle: f64) -> Surface {
         let mut less = self.clone();
         let gone = &self.features[chain as usize];
