@@ -15,4 +15,5 @@ mod stopping;
 mod symmetry;
 mod threads;
 mod topology;
+mod watching;
 mod wishes;

@@ -38,7 +38,6 @@ fn a_job_cancelled_from_its_own_progress_stops_in_the_middle() {
     let (stop, told) = (job.clone(), Arc::clone(&seen));
     let job = job.with_progress(move |progress| {
         assert!((0.0..=1.0).contains(&progress.fraction));
-        assert_eq!(progress.positions.len() % 3, 0);
         told.store(true, Ordering::Relaxed);
         stop.cancel();
     });
