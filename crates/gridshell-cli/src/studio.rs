@@ -12,7 +12,7 @@ pub fn run(args: &Studio) -> Result<Outcome, Failure> {
     let options = Options {
         surface: args.surface.clone(),
         port: args.port,
-        log: Arc::new(|line: &str| say::note(line)),
+        log: Arc::new(say::note),
         page: args.page.clone(),
     };
     let told = |address: &str| {
