@@ -52,7 +52,10 @@ pub fn info(inspection: &Inspection, sketch: &Surface) -> SurfaceInfo {
             "Patches",
             if surface.patches == 0 { "a mesh".into() } else { surface.patches.to_string() },
         ),
-        fact("Boundary", format!("{} loops, {} corners", surface.loops, surface.corners)),
+        fact(
+            "Boundary",
+            format!("{}, {}", counted(surface.loops, "loop"), counted(surface.corners, "corner")),
+        ),
     ];
     if !inspection.creases.is_empty() {
         facts.push(fact("Creases", inspection.creases.len().to_string()));
@@ -86,4 +89,9 @@ pub fn info(inspection: &Inspection, sketch: &Surface) -> SurfaceInfo {
         edge_length,
         bounds: [surface.bounds.min, surface.bounds.max],
     }
+}
+
+/// A number of things.
+fn counted(n: usize, thing: &str) -> String {
+    format!("{n} {thing}{}", if n == 1 { "" } else { "s" })
 }
