@@ -30,6 +30,7 @@ fn main() {
     });
     let mut list = String::from("static FILES: &[(&str, &[u8])] = &[\n");
     for (name, path) in files {
+        let path = path.to_string_lossy();
         let _ = writeln!(list, "    ({name:?}, include_bytes!({path:?})),");
     }
     list += "];\n";

@@ -2,6 +2,7 @@
 
 use crate::build::{cargo, cargo_aloud};
 use crate::page;
+use crate::readers;
 
 /// Format, clippy on all targets, rustdoc.
 pub fn lint() -> Result<(), String> {
@@ -10,7 +11,7 @@ pub fn lint() -> Result<(), String> {
     cargo(&["doc", "--workspace", "--no-deps", "--quiet"], &[("RUSTDOCFLAGS", "-D warnings")])
 }
 
-/// Every test of the workspace, and those in the documentation; the last line printed sums them up as cargo
+/// Every test of the workspace, those in the documentation, and the readers of others; the last line printed sums them up as cargo
 /// does for each.
 pub fn test() -> Result<(), String> {
     let mut sum = Tally::default();
@@ -18,12 +19,31 @@ pub fn test() -> Result<(), String> {
         sum.add(line);
     });
     let result = result.and(page::test(&mut |line| sum.add(line)));
+    let read = readers::run();
+    if let Ok(read) = &read {
+        sum.passed += read.passed;
+        sum.failed += read.failed;
+        sum.ignored += read.skipped;
+    }
+    let result = result.and(read.and_then(all_passed));
     let word = if result.is_ok() { "ok" } else { "FAILED" };
     println!(
         "test result: {word}. {} passed; {} failed; {} ignored",
         sum.passed, sum.failed, sum.ignored
     );
     result
+}
+
+/// Only what the readers of others say.
+pub fn readers() -> Result<(), String> {
+    all_passed(readers::run()?)
+}
+
+fn all_passed(read: readers::Tally) -> Result<(), String> {
+    match read.failed {
+        0 => Ok(()),
+        n => Err(format!("{n} of the readers' tests failed")),
+    }
 }
 
 /// Numbers of tests.

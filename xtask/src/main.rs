@@ -1,4 +1,4 @@
-//! The project's own chores: `cargo xtask lint | test | cases | bench | picture | pictures | fuzz`.
+//! The project's own chores: `cargo xtask lint | test | readers | cases | bench | picture | pictures | fuzz`.
 //!
 //! Everything here builds in the dev profile, so that the dependencies are compiled once; only the chores that
 //! lay grids run the release build of the command, because they tell times or take theirs.
@@ -11,6 +11,7 @@ mod laid;
 mod page;
 mod picture;
 mod quality;
+mod readers;
 mod watched;
 
 use quality::Scope;
@@ -19,8 +20,9 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask CHORE
   lint                    format, clippy and rustdoc, warnings denied
-  test                    lint, then every test, the documentation's and the studio's page's included; the page wants
-                          npm and Chromium (CHROMIUM, or /usr/bin/chromium)
+  test                    lint, then every test, the documentation's included, then what `readers` does and the tests of
+                          the studio's page, which want npm and Chromium (CHROMIUM, or /usr/bin/chromium)
+  readers                 programs that others wrote read back every format (installs them below the target folder)
   cases FOLDER [--draft] [NAME]...
                           a grid on every case in FOLDER's README.md table (or the named ones), as a table,
                           and what becomes of its broken files; --draft: quick grids
@@ -40,6 +42,7 @@ fn main() -> ExitCode {
     let result = match args.as_slice() {
         ["lint"] => check::lint(),
         ["test"] => check::lint().and_then(|()| check::test()),
+        ["readers"] => check::readers(),
         ["cases", folder, names @ ..] => cases::run(folder.as_ref(), names),
         ["picture", surface, file] => picture::plan(surface, file.as_ref()),
         ["fuzz", rest @ ..] => fuzz::Plan::parse(rest).and_then(|plan| fuzz::run(&plan)),

@@ -26,6 +26,8 @@ pub enum Command {
     Measure(Measure),
     /// Edit a grid: replay a log of edits on it, and suggest more.
     Edit(Edit),
+    /// Write a grid in other formats.
+    Convert(Convert),
     /// Tell what a file holds: format, units, parts, objects, patches, loops, corners, creases, gaps, what was
     /// skipped, and edge lengths that would suit it.
     Inspect(Inspect),
@@ -65,7 +67,8 @@ impl Reading {
 
 #[derive(ClapArgs)]
 pub struct Generate {
-    /// A file (STEP, 3DM, IGES, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface.
+    /// A file (STEP, 3DM, IGES, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface; a `.gridshell`
+    /// file repeats its run.
     #[arg(default_value = "great-court")]
     pub surface: String,
     /// Which of several separate parts to lay the grid on: a number as `inspect` lists them, or `all` for one grid of
@@ -123,10 +126,14 @@ pub struct Generate {
     /// Recipe with all options; flags override it.
     #[arg(short, long, value_name = "FILE.toml")]
     pub recipe: Option<PathBuf>,
-    /// Where to write the grid (OBJ, PLY, STL, OFF by extension); may be given more than once.
-    /// Without it, `<name>.obj` in the current folder.
+    /// Where to write the grid, in the format of the name's end: gridshell, obj, ply, stl, off, glb, dxf, csv,
+    /// compas.json, vtu, saf.xlsx, ifc, tcl; may be given more than once. Without it, `<name>.obj` in the current folder.
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+    #[command(flatten)]
+    pub handover: Handover,
+    #[command(flatten)]
+    pub alike: Alike,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,
@@ -138,15 +145,68 @@ pub struct Generate {
     pub time_limit: Option<f64>,
 }
 
+/// What hand-over files state beside the grid.
 #[derive(ClapArgs)]
-pub struct Measure {
-    /// A grid: a triangle mesh (OBJ, PLY, STL, OFF, glTF, COMPAS JSON).
+pub struct Handover {
+    /// Supported nodes: `boundary` (what is taken without it), `corners`, `none`, or a text with one point `x y z` a line.
+    #[arg(long, value_name = "boundary|corners|FILE|none")]
+    pub supports: Option<String>,
+    /// Section of all members, millimetres: `RHS 100x60x5` (height x width x wall), `CHS 88.9x5`, `REC 120x60`.
+    #[arg(long, value_name = "SECTION", default_value = "RHS 100x60x5")]
+    pub section: String,
+    /// Material of all members: S235, S275, S355, GL24h or EN AW-6082.
+    #[arg(long, value_name = "NAME", default_value = "S355")]
+    pub material: String,
+    /// Thickness of the panels, millimetres.
+    #[arg(long, value_name = "MM", value_parser = positive, default_value = "16", allow_negative_numbers = true)]
+    pub pane: f64,
+    /// Version of SAF files: 2.0.0 or 1.0.5.
+    #[arg(long, value_name = "VERSION", default_value = "2.0.0")]
+    pub saf: String,
+}
+
+/// Within what elements count as alike.
+#[derive(ClapArgs)]
+pub struct Alike {
+    /// Members of a group differ in length by at most this, metres; without it a two hundredth of the mean length.
+    #[arg(long, value_name = "L", value_parser = positive, allow_negative_numbers = true)]
+    pub length_tolerance: Option<f64>,
+    /// Nodes of a group differ in their angles by at most this, degrees; without it 1.
+    #[arg(long, value_name = "DEG", value_parser = positive, allow_negative_numbers = true)]
+    pub angle_tolerance: Option<f64>,
+}
+
+#[derive(ClapArgs)]
+pub struct Convert {
+    /// A grid: a `.gridshell` file or a triangle mesh (OBJ, PLY, STL, OFF, glTF, COMPAS JSON).
     pub grid: PathBuf,
-    /// The surface it was laid on: a file or a built-in name. Without it the grid itself is the surface.
+    /// The surface it was laid on: a file or a built-in name. Without it a `.gridshell` file tells, and else the grid
+    /// itself is the surface.
     #[arg(short, long, value_name = "SURFACE")]
     pub surface: Option<String>,
     #[command(flatten)]
     pub reading: Reading,
+    /// Where to write it, in the format of the name's end, as for `generate`; may be given more than once.
+    #[arg(short, long, value_name = "FILE", required = true)]
+    pub output: Vec<PathBuf>,
+    #[command(flatten)]
+    pub handover: Handover,
+    #[command(flatten)]
+    pub alike: Alike,
+}
+
+#[derive(ClapArgs)]
+pub struct Measure {
+    /// A grid: a `.gridshell` file or a triangle mesh (OBJ, PLY, STL, OFF, glTF, COMPAS JSON).
+    pub grid: PathBuf,
+    /// The surface it was laid on: a file or a built-in name. Without it a `.gridshell` file tells, and else the grid
+    /// itself is the surface.
+    #[arg(short, long, value_name = "SURFACE")]
+    pub surface: Option<String>,
+    #[command(flatten)]
+    pub reading: Reading,
+    #[command(flatten)]
+    pub alike: Alike,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,
@@ -154,19 +214,24 @@ pub struct Measure {
 
 #[derive(ClapArgs)]
 pub struct Edit {
-    /// A grid: a triangle mesh (OBJ, PLY, STL, OFF, glTF, COMPAS JSON).
+    /// A grid: a `.gridshell` file or a triangle mesh (OBJ, PLY, STL, OFF, glTF, COMPAS JSON).
     pub grid: PathBuf,
     /// The edits, as JSON: see docs/editing.md.
     #[arg(long, value_name = "FILE.json")]
     pub log: Option<PathBuf>,
-    /// The surface it was laid on: a file or a built-in name. Without it the grid itself is the surface.
+    /// The surface it was laid on: a file or a built-in name. Without it a `.gridshell` file tells, and else the grid
+    /// itself is the surface.
     #[arg(short, long, value_name = "SURFACE")]
     pub surface: Option<String>,
     #[command(flatten)]
     pub reading: Reading,
-    /// Where to write the edited grid (OBJ, PLY, STL, OFF by extension); may be given more than once.
+    /// Where to write the edited grid, in the format of the name's end, as for `generate`; may be given more than once.
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+    #[command(flatten)]
+    pub handover: Handover,
+    #[command(flatten)]
+    pub alike: Alike,
     /// So many more edits that would better the grid, the best first.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub suggest: usize,

@@ -3,10 +3,11 @@
 use crate::Outcome;
 use crate::args::Edit;
 use crate::failure::Failure;
-use crate::{measure, say};
+use crate::{handover, recipe, say};
 use gridshell::edit::{Editor, Figures, Log};
-use gridshell::io::{self, GridFile};
-use gridshell::recipe::Recipe;
+use gridshell::io::GridFile;
+use gridshell::reopen::{self, Opened};
+use gridshell::schedule::{Schedule, Tolerances};
 use serde::Serialize;
 use std::fmt::Write;
 use std::fs;
@@ -36,13 +37,17 @@ struct Step {
 }
 
 pub fn run(args: &Edit) -> Result<Outcome, Failure> {
-    args.output.iter().try_for_each(|path| io::check_output(path))?;
+    args.output.iter().try_for_each(|path| handover::check_output(path))?;
+    let structure = handover::structure(&args.handover)?;
+    let supports = handover::supports(&args.handover)?;
     let log = args.log.as_deref().map(read_log).transpose()?;
     let opening = args.reading.opening();
-    let opened = measure::open(&args.grid, args.surface.as_deref(), &opening)?;
-    let recipe = Recipe::default();
-    let surface = Arc::new(opened.surface);
-    let mut editor = Editor::new(surface, opened.grid, recipe, opened.edge_length);
+    let mut opened =
+        reopen::open(&args.grid, args.surface.as_deref(), &opening).map_err(Failure::of_input)?;
+    recipe::tolerances(&mut opened.recipe, &args.alike);
+    let Opened { document, grid, surface, edge_length, recipe, notes, .. } = opened;
+    let tolerances = Tolerances::from(&recipe.measure);
+    let mut editor = Editor::new(Arc::new(surface), grid, recipe, edge_length);
     let before = editor.figures();
     if let (Some(log), Some(path)) = (log, &args.log) {
         editor.replay(&log).map_err(|e| Failure::input(path, e))?;
@@ -53,21 +58,25 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
     let edits = steps(editor.history().map(|(e, f)| (e.clone(), f.after)).collect());
     let suggested =
         steps(editor.suggest(args.suggest).into_iter().map(|(e, f)| (e, f.after)).collect());
-    let mut wrote = Vec::new();
-    for path in &args.output {
-        write(&editor, &opened.name, path).map_err(Failure::other)?;
-        wrote.push(format!("wrote {}", path.display()));
+    let grid = editor.finished();
+    let schedule = Schedule::new(&grid, editor.surface(), &tolerances);
+    let mut document = reopen::edited(&document, &editor);
+    if let Some(supports) = supports {
+        document.supports = supports.nodes(&grid, editor.surface())?;
     }
+    document.panels.clone_from(&schedule.panels.nodes);
+    let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
+    let wrote = handover::write_all(&args.output, &file)?;
     let (schema, version) = ("gridshell.edit/1", env!("CARGO_PKG_VERSION"));
     if args.json {
         say::json(&Document { schema, version, before, edits, suggested })?;
-        for w in &wrote {
-            say::note(w);
-        }
+        wrote.lines().for_each(say::note);
     } else {
         say::result(&table(&before, &edits, &suggested, &wrote))?;
     }
-    opened.notes.iter().for_each(|n| say::note(&format!("note: {n}")));
+    for n in &notes {
+        say::note(&format!("note: {n}"));
+    }
     Ok(Outcome::Done)
 }
 
@@ -81,7 +90,7 @@ fn read_log(path: &Path) -> Result<Log, Failure> {
 }
 
 /// What was done and what is suggested, a line each.
-fn table(before: &Figures, edits: &[Step], suggested: &[Step], wrote: &[String]) -> String {
+fn table(before: &Figures, edits: &[Step], suggested: &[Step], wrote: &str) -> String {
     let mut text = format!("{:44} {:>9} {:>8} {:>8} {:>9}\n", "", "R", "mu", "Q", "irregular");
     let mut line = |what: &str, f: &Figures| {
         let q = f.fluency.map_or("inf".to_owned(), |q| format!("{q:.3}"));
@@ -95,26 +104,8 @@ fn table(before: &Figures, edits: &[Step], suggested: &[Step], wrote: &[String])
     for step in suggested {
         line(&format!("suggested: {}", step.edit), &step.after);
     }
-    for w in wrote {
-        text += w;
-        text.push('\n');
+    if !wrote.is_empty() {
+        let _ = writeln!(text, "{wrote}");
     }
     text
-}
-
-fn write(editor: &Editor, name: &str, path: &Path) -> gridshell::Result<()> {
-    let grid = editor.finished();
-    let triangles: Vec<_> = grid.mesh.triangles().collect();
-    let edges: Vec<_> = grid.mesh.edges().collect();
-    let header = [
-        format!(
-            "gridshell {}: {} after {} edits",
-            env!("CARGO_PKG_VERSION"),
-            name.replace(char::is_control, " "),
-            editor.history().len()
-        ),
-        "lengths in metres".to_owned(),
-    ];
-    let file = GridFile { xyz: &grid.xyz, triangles: &triangles, edges: &edges, header: &header };
-    io::write(path, &file)
 }

@@ -3,21 +3,32 @@
 use crate::Outcome;
 use crate::args::Generate;
 use crate::failure::Failure;
-use crate::{progress, recipe, say, table};
-use gridshell::io::{self, GridFile};
-use gridshell::pipeline;
+use crate::{handover, progress, recipe, say, table};
+use gridshell::io::{self, Document, GridFile};
 use gridshell::run::Run;
+use gridshell::structure::Supports;
+use gridshell::{DVec3, pipeline};
 use std::path::{Path, PathBuf};
 
 pub fn run(args: &Generate) -> Result<Outcome, Failure> {
-    let recipe = recipe::from_args(args)?;
-    args.output.iter().try_for_each(|path| check_output(path))?;
+    let again = again(&args.surface)?;
+    let recipe = recipe::from_args(args, again.as_ref().and_then(|d| d.recipe.as_ref()))?;
+    args.output.iter().try_for_each(|path| handover::check_output(path))?;
+    let structure = handover::structure(&args.handover)?;
+    let supports = handover::supports(&args.handover)?;
     if let Some(n) = args.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(n));
         pool.build_global().map_err(Failure::other)?;
     }
     let opening = args.reading.opening();
-    let model = io::open_with(&args.surface, &opening).map_err(Failure::of_input)?;
+    let (model, reference) = match again.as_ref().and_then(|d| d.surface.clone()) {
+        Some(reference) => {
+            (io::open_reference(&reference, Path::new(&args.surface)), Ok(reference))
+        }
+        None => (io::open_with(&args.surface, &opening), io::reference(&args.surface, &opening)),
+    };
+    let model = model.map_err(Failure::of_input)?;
+    let reference = reference.map_err(Failure::of_input)?;
     let (job, bar) = progress::job(args.time_limit);
     let run = pipeline::generate(&model, &recipe, &job);
     bar.finish_and_clear();
@@ -27,9 +38,16 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
         [] => vec![default_output(&run, &args.surface)],
         given => given.to_vec(),
     };
-    write_all(&run, &outputs)?;
-    let wrote: Vec<_> = outputs.iter().map(|p| format!("wrote {}", p.display())).collect();
-    let wrote = wrote.join("\n");
+    let supports = match (supports, again) {
+        (None, Some(before)) if is_same(&run, &before) => before.supports,
+        (supports, _) => {
+            let (surface, _) = pipeline::surface(&model, &recipe)?;
+            supports.unwrap_or(Supports::Boundary).nodes(&run.grid, &surface)?
+        }
+    };
+    let document = Document::of_run(&run, reference, supports);
+    let file = GridFile { document: &document, schedule: &run.schedule, structure: &structure };
+    let wrote = handover::write_all(&outputs, &file)?;
     if args.json {
         say::json(&run)?;
         say::note(&wrote);
@@ -39,20 +57,21 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
     Ok(if run.stopped { Outcome::Stopped } else { Outcome::Done })
 }
 
-fn write_all(run: &Run, outputs: &[PathBuf]) -> Result<(), Failure> {
-    let triangles: Vec<_> = run.grid.mesh.triangles().collect();
-    let edges: Vec<_> = run.grid.mesh.edges().collect();
-    let header = [
-        format!(
-            "gridshell {}: grid on {}",
-            run.version,
-            run.surface.name.replace(char::is_control, " ")
-        ),
-        format!("edge length {} m, seed {}, lengths in metres", run.edge_length, run.seed),
-    ];
-    let file =
-        GridFile { xyz: &run.grid.xyz, triangles: &triangles, edges: &edges, header: &header };
-    outputs.iter().try_for_each(|path| io::write(path, &file)).map_err(Failure::other)
+/// The run to be repeated, where the surface is a grid file of one.
+fn again(surface: &str) -> Result<Option<Document>, Failure> {
+    let path = Path::new(surface);
+    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("gridshell")) {
+        return Ok(None);
+    }
+    let document = io::read_document(path).map_err(Failure::of_input)?;
+    if document.surface.is_none() || document.recipe.is_none() {
+        return Err(Failure::input(path, "it tells of no run that could be repeated"));
+    }
+    Ok(Some(document))
+}
+
+fn is_same(run: &Run, before: &Document) -> bool {
+    run.grid.xyz.iter().map(DVec3::to_array).eq(before.nodes.iter().copied())
 }
 
 /// `<name>.obj` in the current folder, or `<name>-grid.obj` where that is the surface's own file.
@@ -65,18 +84,4 @@ fn default_output(run: &Run, surface: &str) -> PathBuf {
         (Ok(output), Ok(input)) if output == input => PathBuf::from(format!("{name}-grid.obj")),
         _ => path,
     }
-}
-
-/// Refuse an output that cannot be written before the work is done, not after.
-fn check_output(path: &Path) -> Result<(), Failure> {
-    io::check_output(path)?;
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if !folder.is_dir() {
-        return Err(Failure::usage(format!(
-            "{}: there is no folder {}",
-            path.display(),
-            folder.display()
-        )));
-    }
-    Ok(())
 }

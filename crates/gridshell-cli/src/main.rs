@@ -1,9 +1,11 @@
 //! The command `gridshell`: reads arguments, calls the library, prints. All geometry is in the library.
 
 mod args;
+mod convert;
 mod edit;
 mod failure;
 mod generate;
+mod handover;
 mod inspect;
 mod measure;
 mod picture;
@@ -35,6 +37,7 @@ fn main() -> ExitCode {
         Command::Generate(args) => generate::run(args),
         Command::Measure(args) => measure::run(args),
         Command::Edit(args) => edit::run(args),
+        Command::Convert(args) => convert::run(args),
         Command::Inspect(args) => inspect::run(args),
         #[cfg(feature = "studio")]
         Command::Studio(args) => studio::run(args),

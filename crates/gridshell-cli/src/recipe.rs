@@ -1,6 +1,6 @@
 //! The recipe of a run: a named method, then the file, then the flags.
 
-use crate::args::Generate;
+use crate::args::{Alike, Generate};
 use crate::failure::Failure;
 use gridshell::io;
 use gridshell::recipe::{Direction, Recipe, Size};
@@ -11,8 +11,12 @@ use toml::{Table, Value};
 const MAX_BYTES: u64 = 1 << 20;
 
 /// The recipe that the arguments ask for, checked.
-pub fn from_args(args: &Generate) -> Result<Recipe, Failure> {
-    let mut recipe = Recipe::named(args.method.as_deref().unwrap_or("default"))?;
+/// What they do not say is as in `again`, the recipe of a run to be repeated, if there is one and no method is named.
+pub fn from_args(args: &Generate, again: Option<&Recipe>) -> Result<Recipe, Failure> {
+    let mut recipe = match (&args.method, again) {
+        (None, Some(recipe)) => recipe.clone(),
+        (method, _) => Recipe::named(method.as_deref().unwrap_or("default"))?,
+    };
     if let Some(path) = &args.recipe {
         recipe = overlay(&recipe, path)?;
     }
@@ -62,8 +66,16 @@ pub fn from_args(args: &Generate) -> Result<Recipe, Failure> {
     if let Some(border) = args.border {
         recipe.border = border;
     }
+    tolerances(&mut recipe, &args.alike);
     recipe.validate()?;
     Ok(recipe)
+}
+
+/// Take over the tolerances that are given.
+pub fn tolerances(recipe: &mut Recipe, alike: &Alike) {
+    let measure = &mut recipe.measure;
+    measure.length_tolerance = alike.length_tolerance.or(measure.length_tolerance);
+    measure.angle_tolerance_deg = alike.angle_tolerance.unwrap_or(measure.angle_tolerance_deg);
 }
 
 /// Three numbers parted by commas, if it is that.

@@ -2,6 +2,7 @@
 
 use gridshell::inspect::Inspection;
 use gridshell::run::{Run, SurfaceSummary};
+use gridshell::schedule::Figures;
 use gridshell::stages::measure::{Lengths, Quality};
 use std::fmt::Write;
 
@@ -38,6 +39,7 @@ pub fn run(run: &Run) -> String {
     }
     text += "\n";
     text += &checks(&run.quality);
+    text += &alike(&run.figures);
     for warning in &run.warnings {
         let _ = writeln!(text, "warning: {warning}");
     }
@@ -48,8 +50,9 @@ pub fn run(run: &Run) -> String {
 }
 
 /// One grid.
-pub fn grid(name: &str, quality: &Quality) -> String {
-    format!("{HEADER}{}\n\n{}", row(name, Some(quality), None), checks(quality))
+pub fn grid(name: &str, quality: &Quality, figures: &Figures) -> String {
+    let row = row(name, Some(quality), None);
+    format!("{HEADER}{row}\n\n{}{}", checks(quality), alike(figures))
 }
 
 /// All that there is to say of a model.
@@ -217,10 +220,33 @@ fn checks(q: &Quality) -> String {
     text
 }
 
+/// What has to be made: lengths, areas, kinds, folds and twists.
+fn alike(f: &Figures) -> String {
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
+        "built: {:.1} m of members in {} within {:.1} mm, {:.1} m2 in {}, {}",
+        f.length.total,
+        count(f.length.groups, "length"),
+        1e3 * f.length_tolerance,
+        f.panel.total_area,
+        count(f.panel.distinct, "kind of panel"),
+        count(f.distinct_nodes, "kind of node")
+    );
+    let _ = writeln!(
+        text,
+        "folds up to {:.1} deg, twist up to {:.2} deg, angles {:.1} to {:.1} deg",
+        f.fold_deg.max, f.twist_deg.max, f.angle_deg.min, f.angle_deg.max
+    );
+    text
+}
+
 fn count(n: usize, noun: &str) -> String {
     match (n, noun) {
         (1, _) => format!("1 {noun}"),
         (_, "patch") => format!("{n} patches"),
+        (_, "kind of panel") => format!("{n} kinds of panels"),
+        (_, "kind of node") => format!("{n} kinds of nodes"),
         _ => format!("{n} {noun}s"),
     }
 }

@@ -262,3 +262,93 @@ fn threads_do_not_change_a_byte() {
     let read = |name: &str| fs::read(folder.path().join(name)).expect("written");
     assert!(read("1.obj") == read("2.obj"));
 }
+
+#[test]
+fn a_run_is_repeated_from_its_file_to_the_last_byte() {
+    let folder = folder();
+    let anchored =
+        "generate hexagon --edge-length 1 --effort draft --anchor 0.5,0.3,0 --supports corners";
+    for args in
+        [anchored.to_owned() + " -o a.gridshell", "generate a.gridshell -o b.gridshell".into()]
+    {
+        let run = gridshell(folder.path(), &args);
+        assert_eq!(code(&run), 0, "{args}: {}", stderr(&run));
+    }
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).expect("written");
+    assert!(read("a.gridshell") == read("b.gridshell"));
+    let document: Value = serde_json::from_str(&read("a.gridshell")).expect("JSON");
+    assert_eq!(document["supports"].as_array().expect("a list").len(), 6);
+    assert_eq!(document["anchors"].as_array().expect("a list").len(), 1);
+    let measured = gridshell(folder.path(), "measure a.gridshell --json");
+    assert_eq!(self::document(&measured)["surface"]["name"], "hexagon");
+}
+
+#[test]
+fn a_grid_is_converted_and_several_tables_are_told() {
+    let folder = folder();
+    write_hexagon(folder.path());
+    let run = gridshell(folder.path(), "convert six.obj -o six.csv -o six.dxf -o six.gridshell");
+    assert_eq!(code(&run), 0, "{}", stderr(&run));
+    for name in ["six.nodes.csv", "six.members.csv", "six.panels.csv", "six.dxf", "six.gridshell"] {
+        assert!(folder.path().join(name).is_file(), "{name}");
+        assert!(stdout(&run).contains(&format!("wrote {name}")), "{name}");
+    }
+    let again = gridshell(folder.path(), "generate six.gridshell");
+    assert_eq!(code(&again), 3, "it tells of no run");
+}
+
+#[test]
+fn supports_and_sections_that_cannot_be_are_refused() {
+    let folder = folder();
+    write_hexagon(folder.path());
+    fs::write(folder.path().join("far.txt"), "100 0 0\n").expect("written");
+    for (args, leaves) in [
+        ("convert six.obj -o a.ifc --section HEB", 2),
+        ("convert six.obj -o a.ifc --material wood", 2),
+        ("convert six.obj -o a.saf.xlsx --saf 3", 2),
+        ("convert six.obj -o a.ifc --supports far.txt", 2),
+        ("convert six.obj -o a.ifc --supports none.txt", 3),
+        ("convert six.obj", 2),
+        ("convert none.obj -o a.ifc", 3),
+    ] {
+        let run = gridshell(folder.path(), args);
+        assert_eq!(code(&run), leaves, "{args}: {}", stderr(&run));
+        assert!(!folder.path().join("a.ifc").exists(), "{args}");
+    }
+}
+
+#[test]
+fn a_run_on_a_file_in_another_unit_and_on_a_part_is_repeated() {
+    let folder = folder();
+    let square = |x: f64, first: usize| {
+        let corners = [[0.0, 0.0], [4000.0, 0.0], [4000.0, 4000.0], [0.0, 4000.0]];
+        let nodes: String = corners
+            .iter()
+            .map(|c| format!("v {} {} 0\n", c[0] + x, c[1]))
+            .collect::<Vec<_>>()
+            .concat();
+        format!("{nodes}f {} {} {} {}\n", first, first + 1, first + 2, first + 3)
+    };
+    fs::write(folder.path().join("two.obj"), square(0.0, 1) + &square(9000.0, 5)).expect("written");
+    for (part, pieces) in [("2", 1), ("all", 2)] {
+        let first = format!(
+            "generate two.obj --units mm --part {part} -l 1 --effort draft -o a.gridshell -o a.csv"
+        );
+        for args in [first.as_str(), "generate a.gridshell -o b.gridshell"] {
+            let run = gridshell(folder.path(), args);
+            assert_eq!(code(&run), 0, "{args}: {}", stderr(&run));
+        }
+        let read = |name: &str| fs::read_to_string(folder.path().join(name)).expect("written");
+        assert!(read("a.gridshell") == read("b.gridshell"), "part {part}");
+        let grid: Value = serde_json::from_str(&read("a.gridshell")).expect("JSON");
+        let nodes = grid["nodes"].as_array().expect("a list").len();
+        assert_eq!(
+            read("a.nodes.csv").lines().count(),
+            nodes + 1,
+            "a row for each node of all parts"
+        );
+        let measured = document(&gridshell(folder.path(), "measure a.gridshell --json"));
+        assert_eq!(measured["quality"]["euler_characteristic"], pieces);
+        assert!(measured["quality"]["surface_deviation"].as_f64().expect("told") < 1e-6);
+    }
+}

@@ -11,6 +11,7 @@ use glam::DVec3;
 use gridshell::edit::Editor;
 use gridshell::error::{Error, Result};
 use gridshell::inspect::{self, Sketch};
+use gridshell::io::Reference;
 use gridshell::recipe::Recipe;
 use gridshell::stages::measure::irregular_nodes;
 use gridshell::surface::{Model, Surface, builtin};
@@ -39,6 +40,8 @@ pub struct Opened {
     pub model: Model,
     /// A coarse surface for pictures and picking.
     pub sketch: Surface,
+    /// Where others find it; None where it came through the browser.
+    pub reference: Option<Reference>,
     info: SurfaceInfo,
     frame: Bytes,
 }
@@ -112,7 +115,7 @@ impl Desk {
                 let model = builtin::model(&name).ok_or_else(|| {
                     Error::Option(format!("there is no built-in surface `{name}`"))
                 })?;
-                self.put(model)?;
+                self.put(model, Some(Reference::Builtin(name)))?;
                 Ok(Vec::new())
             }
             Request::Estimate { values } => one(self.estimate(&values)?),
@@ -198,7 +201,8 @@ impl Desk {
     /// # Errors
     /// What [`io::open`] and [`inspect::inspect`] say.
     pub fn open(&self, name_or_path: &str) -> Result<()> {
-        self.put(io::open(name_or_path)?)
+        let reference = io::reference(name_or_path, &io::Opening::default())?;
+        self.put(io::open(name_or_path)?, Some(reference))
     }
 
     /// Open the file at `path`, which was sent under `name`; messages tell of the name.
@@ -210,15 +214,15 @@ impl Desk {
             let told = e.to_string().replace(&path.display().to_string(), name);
             Error::Surface(told)
         })?;
-        self.put(model)
+        self.put(model, None)
     }
 
-    fn put(&self, model: Model) -> Result<()> {
+    fn put(&self, model: Model, reference: Option<Reference>) -> Result<()> {
         let inspection = inspect::inspect(&model)?;
         let Sketch { surface: sketch, .. } = inspect::sketch(&model)?;
         let info = told::info(&inspection, &sketch);
         let frame = scene::surface(&sketch);
-        let opened = Arc::new(Opened { model, sketch, info, frame });
+        let opened = Arc::new(Opened { model, sketch, reference, info, frame });
         self.cancel();
         let mut state = self.state();
         state.opened = Some(Arc::clone(&opened));

@@ -3,15 +3,12 @@
 use crate::message::{Event, Step};
 use gridshell::edit::{Edit, Editor, Effect, Refusal};
 use gridshell::error::{Error, Result};
-use gridshell::grid::Grid;
+use gridshell::pipeline;
 use gridshell::run::Run;
-use gridshell::surface::{Model, Sampling};
+use gridshell::surface::Model;
 use serde_json::Value;
 use std::sync::Arc;
 
-/// Carrier edges, and distance between carrier and surface, over the wanted length: as finely as grids are laid.
-const CARRIER_EDGE: f64 = 0.5;
-const CARRIER_CHORD: f64 = 2e-3;
 /// Suggestions made.
 const SUGGESTED: usize = 8;
 
@@ -20,15 +17,8 @@ const SUGGESTED: usize = 8;
 /// # Errors
 /// What making the surface anew says.
 pub fn editor(model: &Model, run: &Run) -> Result<Editor> {
-    let l0 = run.edge_length;
-    let surface = model.surface(&Sampling {
-        max_edge: CARRIER_EDGE * l0,
-        chord_error: CARRIER_CHORD * l0,
-        corner_angle: run.recipe.corner_angle_deg.to_radians(),
-    })?;
-    let panels: Vec<_> = run.grid.mesh.triangles().collect();
-    let grid = Grid::from_panels(run.grid.xyz.clone(), &panels, &surface)?;
-    Ok(Editor::new(Arc::new(surface), grid, run.recipe.clone(), l0))
+    let (surface, _) = pipeline::surface(model, &run.recipe)?;
+    Ok(Editor::new(Arc::new(surface), run.grid.clone(), run.recipe.clone(), run.edge_length))
 }
 
 /// The edit that the page means.

@@ -6,9 +6,12 @@ use crate::message::RunSummary;
 use gridshell::edit::Editor;
 use gridshell::error::{Error, Result};
 use gridshell::grid::Grid;
-use gridshell::io;
+use gridshell::io::{self, Document, GridFile};
+use gridshell::reopen;
 use gridshell::run::Run;
+use gridshell::schedule::{Schedule, Tolerances};
 use gridshell::stages::measure::{Quality, measure};
+use gridshell::structure::{Structure, Supports};
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -107,12 +110,36 @@ impl Laid {
         }
         let folder = tempfile::tempdir().map_err(|e| unwritten(&e))?;
         let path = folder.path().join(&name);
-        let now = self.now();
-        let grid = now.editor.as_ref().map_or_else(|| self.run.grid.clone(), Editor::finished);
-        drop(now);
-        write(&self.run, &grid, &path)?;
+        self.write(&path)?;
         let bytes = std::fs::read(&path).map_err(|e| unwritten(&e))?;
         Ok((name, bytes))
+    }
+
+    fn write(&self, path: &Path) -> Result<()> {
+        let run = &self.run;
+        let supports = Supports::Boundary.nodes(&run.grid, &self.opened.sketch)?;
+        let start = match self.opened.reference.clone() {
+            Some(reference) => Document::of_run(run, reference, supports),
+            // A file that came through the browser is at no place that others could find.
+            None => Document {
+                seed: Some(run.seed),
+                edge_length: Some(run.edge_length),
+                recipe: Some(run.recipe.clone()),
+                supports,
+                ..Document::of_grid(&run.surface.name, &run.grid)
+            },
+        };
+        let structure = &Structure::default();
+        let now = self.now();
+        let Some(editor) = &now.editor else {
+            let file = GridFile { document: &start, schedule: &run.schedule, structure };
+            return io::write(path, &file).map(|_| ());
+        };
+        let tolerances = Tolerances::from(&run.recipe.measure);
+        let schedule = &Schedule::new(&editor.finished(), editor.surface(), &tolerances);
+        let mut document = reopen::edited(&start, editor);
+        document.panels.clone_from(&schedule.panels.nodes);
+        io::write(path, &GridFile { document: &document, schedule, structure }).map(|_| ())
     }
 
     /// Change the grid.
@@ -131,20 +158,4 @@ impl Now {
         self.quality =
             measure(&editor.finished(), editor.surface(), run.edge_length, &run.recipe.measure);
     }
-}
-
-fn write(run: &Run, grid: &Grid, path: &Path) -> Result<()> {
-    let triangles: Vec<_> = grid.mesh.triangles().collect();
-    let edges: Vec<_> = grid.mesh.edges().collect();
-    let header = [
-        format!(
-            "gridshell {}: grid on {}",
-            run.version,
-            run.surface.name.replace(char::is_control, " ")
-        ),
-        format!("edge length {} m, seed {}, lengths in metres", run.edge_length, run.seed),
-    ];
-    let file =
-        io::GridFile { xyz: &grid.xyz, triangles: &triangles, edges: &edges, header: &header };
-    io::write(path, &file)
 }

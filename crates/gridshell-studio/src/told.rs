@@ -10,11 +10,19 @@ use gridshell::surface::{Surface, builtin};
 pub const ACCEPTS: [&str; 12] =
     ["step", "stp", "iges", "igs", "obj", "ply", "stl", "off", "gltf", "glb", "json", "3dm"];
 /// Extensions of the files that can be exported.
-pub const EXPORTS: [(&str, &str); 6] = [
+pub const EXPORTS: [(&str, &str); 14] = [
+    ("gridshell", "gridshell: the grid and how it was made"),
     ("obj", "OBJ: panels, and members as lines"),
     ("ply", "PLY: panels"),
     ("stl", "STL: panels"),
     ("off", "OFF: panels"),
+    ("glb", "glTF: for viewers"),
+    ("dxf", "DXF: for drawings"),
+    ("compas.json", "COMPAS mesh"),
+    ("vtu", "VTK: with figures"),
+    ("saf.xlsx", "SAF: for structural analysis"),
+    ("ifc", "IFC4"),
+    ("tcl", "OpenSees"),
     ("run.json", "JSON: the run document, all measures"),
     ("edits.json", "JSON: the log of edits, for `gridshell edit`"),
 ];

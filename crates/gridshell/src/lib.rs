@@ -38,8 +38,11 @@ pub mod merit;
 pub mod mesh;
 pub mod pipeline;
 pub mod recipe;
+pub mod reopen;
 pub mod run;
+pub mod schedule;
 pub mod stages;
+pub mod structure;
 pub mod surface;
 
 pub use error::{Error, Result};

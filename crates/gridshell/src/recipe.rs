@@ -402,6 +402,10 @@ pub enum RelaxMethod {
 pub struct Measure {
     /// Weight of interior nodes, Eq. 13.
     pub lambda: f64,
+    /// Members of a group differ in length by at most this, metres; None takes a two hundredth of the mean length.
+    pub length_tolerance: Option<f64>,
+    /// Nodes of a group differ in their angles by at most this, degrees.
+    pub angle_tolerance_deg: f64,
 }
 
 impl std::str::FromStr for Effort {
@@ -486,7 +490,7 @@ impl Default for Relax {
 
 impl Default for Measure {
     fn default() -> Self {
-        Measure { lambda: 0.9 }
+        Measure { lambda: 0.9, length_tolerance: None, angle_tolerance_deg: 1.0 }
     }
 }
 
@@ -571,6 +575,8 @@ impl Recipe {
         }
         within("border", self.border, 0.0, 1.0)?;
         within("measure.lambda", self.measure.lambda, 0.0, 1.0)?;
+        within("measure.length_tolerance", self.measure.length_tolerance.unwrap_or(0.0), 0.0, 1e9)?;
+        within("measure.angle_tolerance_deg", self.measure.angle_tolerance_deg, 0.0, 180.0)?;
 
         let pack = &self.pack;
         within("pack.k_n", pack.k_n, 0.1, 10.0)?;

@@ -5,6 +5,7 @@
 use crate::error::Error;
 use crate::grid::Grid;
 use crate::recipe::{self, Recipe};
+use crate::schedule::{Figures, Schedule};
 use crate::stages::measure::{Border, IrregularNode, Quality};
 use crate::surface::{Model, Sewing, Surface};
 use glam::DVec3;
@@ -42,6 +43,8 @@ pub struct Run {
     pub stages: Vec<StageReport>,
     /// Measures of the final grid.
     pub quality: Quality,
+    /// Figures beside them: lengths, areas, folds, angles, twist, kinds.
+    pub figures: Figures,
     /// The irregular nodes that remain.
     pub irregular: Vec<IrregularNode>,
     /// What the user should know: repaired input, stages that did not converge, limits that were met.
@@ -51,6 +54,9 @@ pub struct Run {
     /// The final grid.
     #[serde(skip)]
     pub grid: Grid,
+    /// Its nodes, members and panels one by one.
+    #[serde(skip)]
+    pub schedule: Schedule,
 }
 
 /// One piece of a grid with a piece on each part of a model.

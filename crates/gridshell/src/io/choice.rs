@@ -3,6 +3,7 @@
 #[cfg(feature = "3dm")]
 use crate::error::{Error, Result};
 use crate::surface::Object;
+use serde::{Deserialize, Serialize};
 #[cfg(feature = "3dm")]
 use std::path::Path;
 
@@ -11,7 +12,8 @@ use std::path::Path;
 const MOST_TOLD: usize = 30;
 
 /// Which objects of a file are read. Without names: all that the file shows.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Choice {
     /// Layers, by name or by path (`Roof::Panels`), those below them included.
     pub layers: Vec<String>,

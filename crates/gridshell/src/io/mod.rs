@@ -2,20 +2,30 @@
 
 mod choice;
 mod compas;
+mod csv;
+mod digest;
+mod document;
+mod dxf;
 mod far;
 mod file;
 mod fins;
+mod format;
 mod gltf;
 mod grid_file;
+mod ifc;
 pub mod iges;
 mod json;
 mod lines;
 mod merge;
+mod native;
 mod obj;
 mod off;
+mod opensees;
 mod ply;
+mod reference;
 #[cfg(feature = "3dm")]
 mod rhino;
+mod saf;
 mod scan;
 mod soup;
 pub mod step;
@@ -23,23 +33,29 @@ mod stl;
 mod turn;
 mod unit;
 mod values;
+mod vtu;
 mod weld;
+mod xlsx;
 
 pub use choice::Choice;
+pub use document::{Document, PlaceRecord, SCHEMA};
+pub use file::replace;
+pub use format::{Format, check_output, write};
 pub use grid_file::GridFile;
 pub use lines::{read_anchors, read_guides};
+pub use native::read_document;
+pub use reference::{Reference, open_reference, reference};
 pub use unit::LengthUnit;
 pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
 use crate::surface::{Model, PolygonMesh, Source, builtin, sew};
+use serde::{Deserialize, Serialize};
 use soup::Soup;
 use std::path::Path;
 
 /// Extensions of the mesh formats.
 const MESH_FORMATS: &str = "obj, ply, stl, off, gltf, glb, json";
-/// Extensions of the formats that a grid is written in.
-const GRID_FORMATS: &str = "obj, ply, stl, off";
 /// Extensions of all formats that hold a surface.
 const SURFACE_FORMATS: &str = "step, stp, 3dm, iges, igs, obj, ply, stl, off, gltf, glb, json";
 
@@ -48,7 +64,8 @@ const LEAST_SIZE: f64 = 0.5;
 const MOST_SIZE: f64 = 1e4;
 
 /// How a file is to be opened.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Opening {
     /// Edges of different faces that lie within this many metres of each other are one edge; without it, what the
     /// file or the size of the model suggests.
@@ -189,33 +206,6 @@ fn mesh_reader(path: &Path) -> Option<MeshReader> {
         "gltf" | "glb" => Some(gltf::read::read),
         "json" => Some(compas::read::read),
         _ => None,
-    }
-}
-
-/// Write a grid in the format of the path's extension. The file appears whole or not at all.
-///
-/// # Errors
-/// [`Error::Io`], or [`Error::Option`] listing the known extensions for an unknown one.
-pub fn write(path: &Path, grid: &GridFile) -> Result<()> {
-    let encode = encoder(path)?;
-    file::replace(path, &encode(grid))
-}
-
-/// Whether [`write()`] knows a format for this path: to be asked before long work.
-///
-/// # Errors
-/// [`Error::Option`] listing the known extensions.
-pub fn check_output(path: &Path) -> Result<()> {
-    encoder(path).map(|_| ())
-}
-
-fn encoder(path: &Path) -> Result<fn(&GridFile) -> Vec<u8>> {
-    match extension(path).as_str() {
-        "obj" => Ok(obj::encode),
-        "ply" => Ok(ply::encode),
-        "stl" => Ok(stl::encode),
-        "off" => Ok(off::encode),
-        _ => Err(unknown(path, GRID_FORMATS)),
     }
 }
 

@@ -89,22 +89,38 @@ fn join_continued(text: &str) -> String {
     joined
 }
 
-/// The grid as OBJ: nodes, panels, then members as lines.
+/// The grid as OBJ: nodes, panels, then members as lines, and as points the irregular nodes and the supports.
 pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
     let mut out = String::new();
-    for line in grid.header {
+    for line in grid.header() {
         let _ = writeln!(out, "# {line}");
     }
-    for DVec3 { x, y, z } in grid.xyz {
+    for DVec3 { x, y, z } in &grid.schedule.nodes.xyz {
         let _ = writeln!(out, "v {x} {y} {z}");
     }
     out.push_str("g panels\n");
-    for [a, b, c] in grid.triangles {
+    for [a, b, c] in &grid.schedule.panels.nodes {
         let _ = writeln!(out, "f {} {} {}", a + 1, b + 1, c + 1);
     }
     out.push_str("g members\n");
-    for (a, b) in grid.edges {
+    for [a, b] in &grid.schedule.members.ends {
         let _ = writeln!(out, "l {} {}", a + 1, b + 1);
     }
+    let nodes = &grid.schedule.nodes;
+    let irregular = (0..nodes.xyz.len()).filter(|&v| nodes.is_irregular(v)).map(|v| v as u32);
+    points(&mut out, "irregular", irregular);
+    points(&mut out, "supports", grid.document.supports.iter().copied());
     out.into_bytes()
+}
+
+/// A group of point elements, where there are any.
+fn points(out: &mut String, group: &str, nodes: impl Iterator<Item = u32>) {
+    let mut nodes = nodes.peekable();
+    if nodes.peek().is_none() {
+        return;
+    }
+    let _ = writeln!(out, "g {group}");
+    for v in nodes {
+        let _ = writeln!(out, "p {}", v + 1);
+    }
 }

@@ -81,14 +81,20 @@ fn face(line: &Line, count: usize) -> Result<Vec<u32>> {
 /// The grid as OFF; the format has no place for members.
 pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
     let mut out = String::from("OFF\n");
-    for line in grid.header {
+    for line in grid.header() {
         let _ = writeln!(out, "# {line}");
     }
-    let _ = writeln!(out, "{} {} {}", grid.xyz.len(), grid.triangles.len(), grid.edges.len());
-    for DVec3 { x, y, z } in grid.xyz {
+    let _ = writeln!(
+        out,
+        "{} {} {}",
+        grid.schedule.nodes.xyz.len(),
+        grid.schedule.panels.nodes.len(),
+        grid.schedule.members.ends.len()
+    );
+    for DVec3 { x, y, z } in &grid.schedule.nodes.xyz {
         let _ = writeln!(out, "{x} {y} {z}");
     }
-    for [a, b, c] in grid.triangles {
+    for [a, b, c] in &grid.schedule.panels.nodes {
         let _ = writeln!(out, "3 {a} {b} {c}");
     }
     out.into_bytes()

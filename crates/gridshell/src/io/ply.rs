@@ -5,6 +5,7 @@ use super::grid_file::GridFile;
 use super::soup::{Digits, Soup};
 use super::{LengthUnit, file, scan};
 use crate::error::{Error, Result};
+use crate::schedule::Schedule;
 use glam::DVec3;
 use std::fmt::Write;
 use std::path::Path;
@@ -335,33 +336,42 @@ impl Body<'_> {
     }
 }
 
-/// The grid as text PLY with an element for the members.
+/// The grid as text PLY with an element for the members; its measures are properties.
 pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
+    let Schedule { nodes, members, panels, .. } = grid.schedule;
     let mut out = String::from("ply\nformat ascii 1.0\n");
-    for line in grid.header {
+    for line in grid.header() {
         let _ = writeln!(out, "comment {line}");
     }
-    let _ = writeln!(out, "element vertex {}", grid.xyz.len());
+    let _ = writeln!(out, "element vertex {}", grid.schedule.nodes.xyz.len());
     out.push_str("property double x\nproperty double y\nproperty double z\n");
-    let _ = writeln!(
-        out,
-        "element face {}\nproperty list uchar int vertex_indices",
-        grid.triangles.len()
-    );
-    let _ = writeln!(
-        out,
-        "element edge {}\nproperty int vertex1\nproperty int vertex2",
-        grid.edges.len()
-    );
+    out.push_str("property double nx\nproperty double ny\nproperty double nz\n");
+    out.push_str("property int degree\nproperty int adjusted_degree\n");
+    out.push_str("property uchar boundary\nproperty uchar support\nproperty int group\n");
+    let _ = writeln!(out, "element face {}", panels.nodes.len());
+    out.push_str("property list uchar int vertex_indices\n");
+    out.push_str("property double area\nproperty double shape\nproperty int group\n");
+    let _ = writeln!(out, "element edge {}", members.ends.len());
+    out.push_str("property int vertex1\nproperty int vertex2\n");
+    out.push_str("property double length\nproperty double twist_deg\nproperty int group\n");
+    out.push_str("property double nx\nproperty double ny\nproperty double nz\n");
     out.push_str("end_header\n");
-    for DVec3 { x, y, z } in grid.xyz {
-        let _ = writeln!(out, "{x} {y} {z}");
+    let supported = grid.supported();
+    for (v, DVec3 { x, y, z }) in nodes.xyz.iter().enumerate() {
+        let n = nodes.normal[v];
+        let _ = write!(out, "{x} {y} {z} {} {} {} ", n.x, n.y, n.z);
+        let (boundary, support) = (u8::from(nodes.boundary[v]), u8::from(supported[v]));
+        let (degree, adjusted) = (nodes.degree[v], nodes.adjusted_degree[v]);
+        let _ = writeln!(out, "{degree} {adjusted} {boundary} {support} {}", nodes.group[v]);
     }
-    for [a, b, c] in grid.triangles {
-        let _ = writeln!(out, "3 {a} {b} {c}");
+    for (k, [a, b, c]) in panels.nodes.iter().enumerate() {
+        let (area, shape, group) = (panels.area[k], panels.shape[k], panels.group[k]);
+        let _ = writeln!(out, "3 {a} {b} {c} {area} {shape} {group}");
     }
-    for (a, b) in grid.edges {
-        let _ = writeln!(out, "{a} {b}");
+    for (k, [a, b]) in members.ends.iter().enumerate() {
+        let (length, twist, n) = (members.length[k], members.twist_deg[k], members.normal[k]);
+        let _ = write!(out, "{a} {b} {length} {twist} {} ", members.group[k]);
+        let _ = writeln!(out, "{} {} {}", n.x, n.y, n.z);
     }
     out.into_bytes()
 }

@@ -116,17 +116,18 @@ fn note_precision(soup: &mut Soup) {
     }
 }
 
-/// The grid as binary STL; the format has no place for members and the header lines.
+/// The grid as binary STL; the format has no place for members, and 80 letters for the rest.
 pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
-    let mut out = vec![b' '; 80];
     // It must not begin with `solid`, which marks the text form.
-    let title = b"gridshell triangles, unit metres";
-    out[..title.len()].copy_from_slice(title);
-    out.extend((grid.triangles.len() as u32).to_le_bytes());
-    for t in grid.triangles {
-        let corners = t.map(|v| grid.xyz[v as usize]);
-        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
-        for p in [normal, corners[0], corners[1], corners[2]] {
+    let document = grid.document;
+    let seed = document.seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
+    let title = format!("gridshell {}{seed}, unit metre", document.version);
+    let mut out: Vec<u8> = title.bytes().chain(std::iter::repeat(b' ')).take(80).collect();
+    let panels = &grid.schedule.panels;
+    out.extend((panels.nodes.len() as u32).to_le_bytes());
+    for (t, normal) in panels.nodes.iter().zip(&panels.normal) {
+        let corners = t.map(|v| grid.schedule.nodes.xyz[v as usize]);
+        for p in [*normal, corners[0], corners[1], corners[2]] {
             for c in p.as_vec3().to_array() {
                 out.extend(c.to_le_bytes());
             }

@@ -1,7 +1,10 @@
 //! Reading, welding and writing meshes, over files written to the system's temporary folder.
 
 use super::*;
+use crate::grid::Grid;
 use crate::mesh::Mesh;
+use crate::schedule::{Schedule, Tolerances};
+use crate::structure::{Structure, Supports};
 use crate::surface::Sampling;
 use glam::DVec3;
 use std::fmt::Write;
@@ -33,6 +36,29 @@ impl Drop for Scratch {
     }
 }
 
+/// A grid with all that goes into a file.
+struct Made {
+    document: Document,
+    schedule: Schedule,
+    structure: Structure,
+}
+
+impl Made {
+    fn new(xyz: &[DVec3], panels: &[[u32; 3]]) -> Made {
+        let (grid, surface) = Grid::alone("made", xyz.to_vec(), panels).expect("a manifold");
+        let schedule = Schedule::new(&grid, &surface, &Tolerances::default());
+        let supports = Supports::Boundary.nodes(&grid, &surface).expect("a boundary");
+        let document =
+            Document { seed: Some(1), supports, ..Document::of_grid("made, seed 1", &grid) };
+        Made { document, schedule, structure: Structure::default() }
+    }
+
+    fn write(&self, path: &Path) {
+        let Made { document, schedule, structure } = self;
+        write(path, &GridFile { document, schedule, structure }).expect("written");
+    }
+}
+
 /// A unit square of two triangles and a quad beside it, at coordinates that single precision cannot hold.
 const FAR: &str = "v 500000.0000000001 4000000.1234567 0.1\nv 500001 4000000 0\nv 500001 4000001 0\n\
                    v 500000 4000001 0\nv 500002 4000000 0\nv 500002 4000001 0\n\
@@ -49,8 +75,6 @@ fn obj_keeps_far_coordinates_and_understands_negative_indices() {
 fn grids_read_back_exactly_from_every_format() {
     let mesh = Scratch::new("source.obj", FAR).read().expect("a mesh");
     let triangles = [[0, 1, 2], [0, 2, 3], [1, 4, 5], [1, 5, 2]];
-    let edges = [(0, 1), (1, 2), (2, 0)];
-    let header = ["gridshell test, seed 1".to_owned(), "unit: metre".to_owned()];
     for extension in ["obj", "ply", "off", "stl"] {
         // Single precision holds small coordinates in eighths.
         let near = |p: &DVec3| ((*p - DVec3::new(500000.0, 4000000.0, 0.0)) * 8.0).round() / 8.0;
@@ -60,11 +84,7 @@ fn grids_read_back_exactly_from_every_format() {
             mesh.points.clone()
         };
         let file = Scratch::new(&format!("round.{extension}"), "");
-        write(
-            &file.0,
-            &GridFile { xyz: &xyz, triangles: &triangles, edges: &edges, header: &header },
-        )
-        .unwrap();
+        Made::new(&xyz, &triangles).write(&file.0);
         let back = file.read().expect("a mesh");
         assert_eq!(back.points.len(), xyz.len(), "{extension}");
         assert_eq!(back.faces.len(), 4, "{extension}");
@@ -454,9 +474,9 @@ proptest::proptest! {
             binary_ply(false)
         } else {
             let xyz = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE];
-            let (triangles, edges) = ([[0, 1, 2], [1, 3, 2]], [(0, 1)]);
-            let grid = GridFile { xyz: &xyz, triangles: &triangles, edges: &edges, header: &[] };
-            encoder(Path::new(name)).expect("known")(&grid)
+            let file = Scratch::new(&format!("whole-{name}"), "");
+            Made::new(&xyz, &[[0, 1, 2], [1, 3, 2]]).write(&file.0);
+            fs::read(&file.0).expect("just written")
         };
         for (at, byte) in damage {
             let n = bytes.len();
@@ -465,6 +485,69 @@ proptest::proptest! {
         bytes.truncate(bytes.len().saturating_sub(cut.saturating_sub(200)));
         let _ = Scratch::new(&format!("damaged-{name}"), bytes).read();
     }
+}
+
+#[test]
+fn a_grid_file_reads_back_to_the_last_bit() {
+    let xyz = [DVec3::new(1.0 / 3.0, -0.0, 5e-324), DVec3::X * 1e300, DVec3::Y, DVec3::ONE];
+    let mut document = Document {
+        surface: Some(Reference::Builtin("hexagon".into())),
+        seed: Some(u64::MAX),
+        edge_length: Some(0.1 + 0.2),
+        recipe: Some(crate::recipe::Recipe::default()),
+        places: vec![
+            PlaceRecord::Interior(7, [0.1, 0.2, 0.7]),
+            PlaceRecord::Boundary(0, 1.0 / 7.0),
+            PlaceRecord::Corner(1, 2.0),
+            PlaceRecord::Feature(2, 3.0),
+        ],
+        edits: vec![
+            serde_json::json!({ "kind": "flip", "members": [[0, 1]], "at": 0.30000000000000004 }),
+        ],
+        ..Made::new(&[DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE], &[[0, 1, 2], [1, 3, 2]])
+            .document
+    };
+    document.nodes = xyz.iter().map(DVec3::to_array).collect();
+    let file = Scratch::new("again.gridshell", native::encode(&document));
+    let back = read_document(&file.0).expect("a grid file");
+    assert_eq!(back, document);
+    assert!(back.nodes[0][1].is_sign_negative());
+    assert_eq!(native::encode(&back), fs::read(&file.0).expect("readable"));
+}
+
+#[test]
+fn grid_files_that_are_none_are_refused_with_where() {
+    let good =
+        native::encode(&Made::new(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]]).document);
+    let good = String::from_utf8(good).expect("JSON");
+    for (from, to, told) in [
+        ("gridshell.grid/1", "gridshell.grid/9", "schema: its schema is `gridshell.grid/9`"),
+        ("[0,1,2]", "[0,1,7]", "panel 0: it uses node 7"),
+        ("[0,1,2]", "[0,1]", "line"),
+        ("\"units\": \"m\"", "\"units\": \"mm\"", "units: lengths in `mm`"),
+        ("\"edits\"", "\"edots\"", "line"),
+    ] {
+        assert!(good.contains(from), "{from}");
+        let file = Scratch::new("wrong.gridshell", good.replace(from, to));
+        let error = read_document(&file.0).expect_err(to).to_string();
+        assert!(error.contains(told), "{error}");
+    }
+}
+
+#[test]
+fn every_format_is_written_and_names_its_version() {
+    let made = Made::new(&[DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE], &[[0, 1, 2], [1, 3, 2]]);
+    for name in ["a.gridshell", "a.glb", "a.dxf", "a.compas.json", "a.vtu", "a.ifc", "a.tcl"] {
+        let file = Scratch::new(name, "");
+        made.write(&file.0);
+        let text = String::from_utf8_lossy(&fs::read(&file.0).expect("written")).into_owned();
+        assert!(text.contains(env!("CARGO_PKG_VERSION")) && text.contains("seed"), "{name}");
+    }
+    let file = Scratch::new("a.saf.xlsx", "");
+    made.write(&file.0);
+    let bytes = fs::read(&file.0).expect("written");
+    made.write(&file.0);
+    assert!(bytes == fs::read(&file.0).expect("written") && bytes.starts_with(b"PK"));
 }
 
 #[test]

@@ -1,10 +1,12 @@
 //! The unit of a file's lengths, as the designer says it or the file's comments do.
 
 use crate::error::{Error, Result};
+use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
 /// A unit of length that meshes are drawn in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum LengthUnit {
     /// 0.001 m.
     Millimetre,

@@ -18,6 +18,7 @@ use crate::grid::Grid;
 use crate::job::Job;
 use crate::recipe::{Recipe, Symmetry};
 use crate::run::{CandidateReport, Run, SCHEMA, StageReport, SurfaceSummary};
+use crate::schedule::{Schedule, Tolerances};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
 use crate::surface::{Model, Ruler, Sampling, Surface, builtin};
@@ -55,6 +56,23 @@ fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
     }
     let run = lay(model, &surface, recipe, &size, fixed, job)?;
     Ok((run, surface))
+}
+
+/// The surface that [`generate`] lays its grid on, and the wanted member length in metres.
+///
+/// # Errors
+/// As [`generate`].
+pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
+    recipe.validate()?;
+    parts::surface(model, recipe)
+}
+
+/// The surface of a model of one part, and the wanted member length in metres.
+fn whole(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
+    let Scale { length, nodes } = scale(model, recipe)?;
+    let (surface, _) =
+        wishes::surface(recipe, length, |l| model.surface(&sampling(l, nodes, recipe)))?;
+    Ok((surface, length))
 }
 
 /// Lay a grid on a surface that was made from `model`; `fixed` is what the user should know of what is fixed on it.
@@ -155,6 +173,7 @@ fn finish(
     job: &Job,
 ) -> Result<Run> {
     check(surface, &grid, &quality, length)?;
+    let schedule = Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure));
     Ok(Run {
         schema: SCHEMA,
         version: env!("CARGO_PKG_VERSION"),
@@ -169,9 +188,11 @@ fn finish(
         stages,
         irregular: irregular_nodes(&grid),
         quality,
+        figures: schedule.figures.clone(),
         warnings,
         stopped: job.stopped(),
         grid,
+        schedule,
     })
 }
 

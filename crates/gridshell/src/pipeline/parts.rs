@@ -3,13 +3,14 @@
 //! Each part gets a grid of its own, of the same edge length, one after the other; then they stand side by side
 //! on one surface and are measured as one. Symmetries and directions are each part's own.
 
-use super::{Scale, check, rough, scale_on, single};
+use super::{Scale, check, rough, scale_on, single, whole};
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
 use crate::job::Job;
 use crate::mesh::Mesh;
 use crate::recipe::{Parts, Recipe, Size};
 use crate::run::{PartReport, PartSummary, Run, StageReport, SurfaceSummary};
+use crate::schedule::{Schedule, Tolerances};
 use crate::stages::measure::{irregular_nodes, measure};
 use crate::surface::parts::Offset;
 use crate::surface::{ChainPoint, Locator, Model, Sampling, Surface};
@@ -29,19 +30,13 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     let parts = model.parts();
     match recipe.part {
         Parts::Number(n) => {
-            let faces = n.checked_sub(1).and_then(|k| parts.get(k)).ok_or_else(|| {
-                Error::Option(format!("there is no part {n}: the parts are 1 to {}", parts.len()))
-            })?;
-            let mut run = single(&model.of_faces(faces), recipe, job)?.0;
+            let mut run = single(&model.of_faces(numbered(&parts, n)?), recipe, job)?.0;
             if parts.len() > 1 {
                 run.warnings.push(format!("part {n} of {}; the others are left out", parts.len()));
             }
             Ok(run)
         }
-        Parts::All if parts.len() > MOST_LAID => Err(Error::Surface(format!(
-            "{} separate parts are too many for one grid; choose one with `part`",
-            parts.len()
-        ))),
+        Parts::All if parts.len() > MOST_LAID => Err(too_many(&parts)),
         Parts::All if parts.len() > 1 => all(model, &parts, recipe, job),
         Parts::One if parts.len() > 1 => Err(Error::Surface(choice(model, &parts))),
         Parts::One | Parts::All => Ok(single(model, recipe, job)?.0),
@@ -66,30 +61,82 @@ fn choice(model: &Model, parts: &[Vec<u32>]) -> String {
     text
 }
 
+/// The surface that [`generate`] lays its grid on, and the wanted member length in metres.
+///
+/// # Errors
+/// As [`generate`].
+pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
+    let parts = model.parts();
+    match recipe.part {
+        Parts::Number(n) => whole(&model.of_faces(numbered(&parts, n)?), recipe),
+        Parts::All if parts.len() > MOST_LAID => Err(too_many(&parts)),
+        Parts::All if parts.len() > 1 => {
+            let pieces = Pieces::new(model, &parts, recipe)?;
+            let surfaces = pieces.each(|part, recipe| Ok(whole(part, recipe)?.0))?;
+            Ok((Surface::side_by_side(surfaces).0, pieces.length))
+        }
+        Parts::One if parts.len() > 1 => Err(Error::Surface(choice(model, &parts))),
+        Parts::One | Parts::All => whole(model, recipe),
+    }
+}
+
+/// The faces of part `n`, counted from 1.
+fn numbered(parts: &[Vec<u32>], n: usize) -> Result<&[u32]> {
+    let faces = n.checked_sub(1).and_then(|k| parts.get(k));
+    faces.map(Vec::as_slice).ok_or_else(|| {
+        Error::Option(format!("there is no part {n}: the parts are 1 to {}", parts.len()))
+    })
+}
+
+fn too_many(parts: &[Vec<u32>]) -> Error {
+    Error::Surface(format!(
+        "{} separate parts are too many for one grid; choose one with `part`",
+        parts.len()
+    ))
+}
+
 /// One grid with a piece on each part.
 fn all(model: &Model, parts: &[Vec<u32>], recipe: &Recipe, job: &Job) -> Result<Run> {
-    let models: Vec<Model> = parts.iter().map(|faces| model.of_faces(faces)).collect();
-    let sampling = rough(model.size(), recipe);
-    let surfaces = models.iter().enumerate();
-    let surfaces = surfaces.map(|(k, part)| part.surface(&sampling).map_err(|e| of_part(k + 1, e)));
-    let whole = Surface::side_by_side(surfaces.collect::<Result<_>>()?).0;
-    let Scale { length, .. } = scale_on(whole, recipe)?;
-    let mut part_recipe = Recipe { part: Parts::One, ..recipe.clone() };
-    // Lengths at points in metres say the length of each part themselves.
-    let given = recipe.edge_length.is_some() || recipe.nodes.is_some();
-    if given || !matches!(recipe.size, Size::Points { .. }) {
-        (part_recipe.edge_length, part_recipe.nodes) = (Some(length), None);
-    }
-    let owners = Owners::new(&models, recipe, length)?;
-    let (mut runs, mut surfaces) = (Vec::new(), Vec::new());
-    for (k, part) in models.iter().enumerate() {
-        let recipe = owners.recipe(k, &part_recipe);
-        let (run, surface) = single(part, &recipe, job).map_err(|e| of_part(k + 1, e))?;
-        runs.push(run);
-        surfaces.push(surface);
-    }
+    let pieces = Pieces::new(model, parts, recipe)?;
+    let laid = pieces.each(|part, recipe| single(part, recipe, job))?;
+    let (runs, surfaces) = laid.into_iter().unzip();
     let (surface, offsets) = Surface::side_by_side(surfaces);
-    join(model, &surface, &offsets, runs, recipe, length, job)
+    join(model, &surface, &offsets, runs, recipe, pieces.length, job)
+}
+
+/// The parts of a model with a recipe for each.
+struct Pieces {
+    models: Vec<Model>,
+    recipes: Vec<Recipe>,
+    /// Wanted member length, metres.
+    length: f64,
+}
+
+impl Pieces {
+    fn new(model: &Model, parts: &[Vec<u32>], recipe: &Recipe) -> Result<Pieces> {
+        let models: Vec<Model> = parts.iter().map(|faces| model.of_faces(faces)).collect();
+        let sampling = rough(model.size(), recipe);
+        let surfaces = models.iter().enumerate();
+        let surfaces =
+            surfaces.map(|(k, part)| part.surface(&sampling).map_err(|e| of_part(k + 1, e)));
+        let side_by_side = Surface::side_by_side(surfaces.collect::<Result<_>>()?).0;
+        let Scale { length, .. } = scale_on(side_by_side, recipe)?;
+        let mut part_recipe = Recipe { part: Parts::One, ..recipe.clone() };
+        // Lengths at points in metres say the length of each part themselves.
+        let given = recipe.edge_length.is_some() || recipe.nodes.is_some();
+        if given || !matches!(recipe.size, Size::Points { .. }) {
+            (part_recipe.edge_length, part_recipe.nodes) = (Some(length), None);
+        }
+        let owners = Owners::new(&models, recipe, length)?;
+        let recipes = (0..models.len()).map(|k| owners.recipe(k, &part_recipe)).collect();
+        Ok(Pieces { models, recipes, length })
+    }
+
+    /// Something done for each part in turn; errors tell the part.
+    fn each<T>(&self, deed: impl Fn(&Model, &Recipe) -> Result<T>) -> Result<Vec<T>> {
+        let pieces = self.models.iter().zip(&self.recipes).enumerate();
+        pieces.map(|(k, (part, r))| deed(part, r).map_err(|e| of_part(k + 1, e))).collect()
+    }
 }
 
 /// The same error, telling the part.
@@ -182,6 +229,7 @@ fn join(
         let tell = |w: &String| format!("part {number}: {w}");
         warnings.extend(run.warnings.iter().map(tell));
     }
+    let schedule = Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure));
     let first = runs.into_iter().next().expect("there are several parts");
     Ok(Run {
         surface: SurfaceSummary::new(model, surface),
@@ -193,6 +241,8 @@ fn join(
         stages,
         irregular: irregular_nodes(&grid),
         quality,
+        figures: schedule.figures.clone(),
+        schedule,
         warnings,
         stopped: job.stopped(),
         grid,

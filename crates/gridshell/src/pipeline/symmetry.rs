@@ -13,6 +13,7 @@ use crate::merit::Sums;
 use crate::mesh::Mesh;
 use crate::recipe::{Recipe, Symmetry};
 use crate::run::{Run, SurfaceSummary, SymmetryReport};
+use crate::schedule::{Schedule, Tolerances};
 use crate::stages::measure::{irregular_nodes, measure};
 use crate::stages::relax;
 use crate::surface::group::Miss;
@@ -121,6 +122,7 @@ pub fn generate(
         last.quality = Some(quality.clone());
         last.grid = Some(grid.clone());
     }
+    let schedule = Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure));
     let mut warnings = fixed;
     // What is narrow in the part need not be so in the whole.
     warnings.extend(narrow::warnings(surface, &grid, length));
@@ -133,10 +135,12 @@ pub fn generate(
             part_nodes,
         }),
         irregular: irregular_nodes(&grid),
+        figures: schedule.figures.clone(),
         stopped: job.stopped(),
         quality,
         warnings,
         grid,
+        schedule,
         ..run
     })
 }

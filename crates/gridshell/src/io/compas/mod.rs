@@ -1,3 +1,4 @@
 //! COMPAS meshes as JSON.
 
 pub(super) mod read;
+pub(super) mod write;

@@ -3,3 +3,4 @@
 mod document;
 mod numbers;
 pub(super) mod read;
+pub(super) mod write;

@@ -6,7 +6,8 @@ use crate::surface::Surface;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-const OPTIONS: recipe::Measure = recipe::Measure { lambda: 0.9 };
+const OPTIONS: recipe::Measure =
+    recipe::Measure { lambda: 0.9, length_tolerance: None, angle_tolerance_deg: 1.0 };
 
 fn close(a: f64, b: f64) {
     assert!((a - b).abs() < 1e-9 * b.abs().max(1.0), "{a} is not {b}");

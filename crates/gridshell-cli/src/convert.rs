@@ -1,0 +1,31 @@
+//! `gridshell convert`: a grid in other formats.
+
+use crate::Outcome;
+use crate::args::Convert;
+use crate::failure::Failure;
+use crate::{handover, recipe, say};
+use gridshell::io::{Document, GridFile};
+use gridshell::reopen;
+use gridshell::schedule::{Schedule, Tolerances};
+
+pub fn run(args: &Convert) -> Result<Outcome, Failure> {
+    args.output.iter().try_for_each(|path| handover::check_output(path))?;
+    let structure = handover::structure(&args.handover)?;
+    let supports = handover::supports(&args.handover)?;
+    let mut opened = reopen::open(&args.grid, args.surface.as_deref(), &args.reading.opening())
+        .map_err(Failure::of_input)?;
+    recipe::tolerances(&mut opened.recipe, &args.alike);
+    let (grid, surface) = (&opened.grid, &opened.surface);
+    let schedule = Schedule::new(grid, surface, &Tolerances::from(&opened.recipe.measure));
+    let supports = match supports {
+        Some(supports) => supports.nodes(grid, surface)?,
+        None => opened.document.supports.clone(),
+    };
+    let panels = schedule.panels.nodes.clone();
+    let document = Document { supports, panels, ..opened.document };
+    let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
+    let wrote = handover::write_all(&args.output, &file)?;
+    opened.notes.iter().for_each(|n| say::note(&format!("note: {n}")));
+    say::result(&(wrote + "\n"))?;
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,143 @@
+//! What a grid file of gridshell's own holds: the grid, and what it takes to make it again. The schema is described in
+//! `docs/gridshell-file.md`.
+
+use super::Reference;
+use crate::grid::{Grid, Place};
+use crate::recipe::Recipe;
+use crate::run::Run;
+use crate::surface::{ChainPoint, SurfacePoint};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// Name and version of the schema.
+pub const SCHEMA: &str = "gridshell.grid/1";
+
+/// A grid with its history. Metres.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Document {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Version of the program that made it.
+    pub version: String,
+    /// Unit of all lengths: `m`.
+    pub units: String,
+    /// Name of the surface.
+    pub name: String,
+    /// Where the design surface is; None where it is not known.
+    pub surface: Option<Reference>,
+    /// Seed of every random choice; None where no run is known.
+    pub seed: Option<u64>,
+    /// Member length that was aimed at; None where no run is known.
+    pub edge_length: Option<f64>,
+    /// The recipe, complete; None where no run is known.
+    pub recipe: Option<Recipe>,
+    /// Positions of the nodes.
+    pub nodes: Vec<[f64; 3]>,
+    /// Where each node sits on the surface; empty where that is not known.
+    pub places: Vec<PlaceRecord>,
+    /// Nodes of the panels, counter-clockwise seen from outside, the lowest first; ascending.
+    pub panels: Vec<[u32; 3]>,
+    /// Members on creases and guides, the lower node first; ascending.
+    pub features: Vec<[u32; 2]>,
+    /// Nodes at the recipe's anchors, in its order.
+    pub anchors: Vec<u32>,
+    /// Supported nodes, ascending.
+    pub supports: Vec<u32>,
+    /// What was edited by hand, in its order. Kept as it is.
+    pub edits: Vec<serde_json::Value>,
+}
+
+/// A place on the surface's carrier, which surface and recipe give anew, bit for bit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PlaceRecord {
+    /// Triangle and barycentric coordinates.
+    Interior(u32, [f64; 3]),
+    /// Loop and arc length.
+    Boundary(u32, f64),
+    /// Loop and arc length.
+    Corner(u32, f64),
+    /// Feature and arc length.
+    Feature(u32, f64),
+    /// Triangle and barycentric coordinates.
+    Fixed(u32, [f64; 3]),
+}
+
+impl Document {
+    /// A grid of which nothing else is known.
+    pub fn of_grid(name: &str, grid: &Grid) -> Document {
+        let mut panels: Vec<[u32; 3]> = grid.mesh.triangles().collect();
+        panels.sort_unstable();
+        let mut features: Vec<[u32; 2]> = grid
+            .mesh
+            .edges()
+            .filter(|&(a, b)| grid.mesh.is_feature_edge(a, b))
+            .map(|(a, b)| [a, b])
+            .collect();
+        features.sort_unstable();
+        Document {
+            schema: SCHEMA.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            units: "m".to_owned(),
+            name: name.to_owned(),
+            surface: None,
+            seed: None,
+            edge_length: None,
+            recipe: None,
+            nodes: grid.xyz.iter().map(DVec3::to_array).collect(),
+            places: Vec::new(),
+            panels,
+            features,
+            anchors: Vec::new(),
+            supports: Vec::new(),
+            edits: Vec::new(),
+        }
+    }
+
+    /// The grid of a run on the surface at `reference`, supported at these nodes.
+    pub fn of_run(run: &Run, reference: Reference, supports: Vec<u32>) -> Document {
+        let grid = &run.grid;
+        let anchor = |p: &[f64; 3]| {
+            let p = DVec3::from_array(*p);
+            let apart = |v: &usize| grid.xyz[*v].distance_squared(p);
+            (0..grid.xyz.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))).map(|v| v as u32)
+        };
+        Document {
+            surface: Some(reference),
+            seed: Some(run.seed),
+            edge_length: Some(run.edge_length),
+            recipe: Some(run.recipe.clone()),
+            places: grid.places.iter().map(|&p| p.into()).collect(),
+            anchors: run.recipe.anchors.iter().filter_map(anchor).collect(),
+            supports,
+            ..Document::of_grid(&run.surface.name, grid)
+        }
+    }
+}
+
+impl From<Place> for PlaceRecord {
+    fn from(place: Place) -> PlaceRecord {
+        match place {
+            Place::Interior(p) => PlaceRecord::Interior(p.triangle, p.bary),
+            Place::Boundary(c) => PlaceRecord::Boundary(c.chain, c.s),
+            Place::Corner(c) => PlaceRecord::Corner(c.chain, c.s),
+            Place::Feature(c) => PlaceRecord::Feature(c.chain, c.s),
+            Place::Fixed(p) => PlaceRecord::Fixed(p.triangle, p.bary),
+        }
+    }
+}
+
+impl From<PlaceRecord> for Place {
+    fn from(record: PlaceRecord) -> Place {
+        match record {
+            PlaceRecord::Interior(triangle, bary) => {
+                Place::Interior(SurfacePoint { triangle, bary })
+            }
+            PlaceRecord::Boundary(chain, s) => Place::Boundary(ChainPoint { chain, s }),
+            PlaceRecord::Corner(chain, s) => Place::Corner(ChainPoint { chain, s }),
+            PlaceRecord::Feature(chain, s) => Place::Feature(ChainPoint { chain, s }),
+            PlaceRecord::Fixed(triangle, bary) => Place::Fixed(SurfacePoint { triangle, bary }),
+        }
+    }
+}

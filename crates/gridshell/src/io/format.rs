@@ -1,0 +1,113 @@
+//! The formats that grids are written in, by the end of the path.
+
+use super::{
+    GridFile, compas, csv, dxf, extension, file, gltf, ifc, native, obj, off, opensees, ply, saf,
+    stl, vtu,
+};
+use crate::error::{Error, Result};
+use std::path::{Path, PathBuf};
+
+/// Ends of paths that can be written.
+const WRITTEN: &str =
+    "gridshell, obj, ply, stl, off, glb, dxf, csv, compas.json, vtu, saf.xlsx, ifc, tcl";
+
+/// A format that grids are written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Gridshell's own.
+    Native,
+    /// Wavefront OBJ.
+    Obj,
+    /// Stanford PLY.
+    Ply,
+    /// STL, binary.
+    Stl,
+    /// Object File Format.
+    Off,
+    /// glTF 2.0, binary.
+    Gltf,
+    /// AutoCAD DXF 2000.
+    Dxf,
+    /// Schedules as tables, one file each.
+    Csv,
+    /// COMPAS mesh.
+    Compas,
+    /// VTK unstructured grid.
+    Vtu,
+    /// Structural Analysis Format.
+    Saf,
+    /// IFC4.
+    Ifc,
+    /// OpenSees input in Tcl.
+    OpenSees,
+}
+
+impl Format {
+    /// The format for this path, by its end.
+    ///
+    /// # Errors
+    /// [`Error::Option`] listing the known ends.
+    pub fn of(path: &Path) -> Result<Format> {
+        match extension(path).as_str() {
+            "gridshell" => Ok(Format::Native),
+            "obj" => Ok(Format::Obj),
+            "ply" => Ok(Format::Ply),
+            "stl" => Ok(Format::Stl),
+            "off" => Ok(Format::Off),
+            "glb" => Ok(Format::Gltf),
+            "dxf" => Ok(Format::Dxf),
+            "csv" => Ok(Format::Csv),
+            "json" => Ok(Format::Compas),
+            "vtu" => Ok(Format::Vtu),
+            "xlsx" => Ok(Format::Saf),
+            "ifc" => Ok(Format::Ifc),
+            "tcl" => Ok(Format::OpenSees),
+            _ => Err(super::unknown(path, WRITTEN)),
+        }
+    }
+}
+
+/// Write a grid in the format of the path's end. Every file appears whole or not at all; gives the files written, which
+/// are several for CSV.
+///
+/// # Errors
+/// [`Error::Io`], or [`Error::Option`] listing the known ends for an unknown one, or where the format cannot hold so
+/// large a grid.
+pub fn write(path: &Path, grid: &GridFile) -> Result<Vec<PathBuf>> {
+    let bytes = match Format::of(path)? {
+        Format::Csv => return write_tables(path, grid),
+        Format::Native => native::encode(grid.document),
+        Format::Obj => obj::encode(grid),
+        Format::Ply => ply::encode(grid),
+        Format::Stl => stl::encode(grid),
+        Format::Off => off::encode(grid),
+        Format::Gltf => gltf::write::encode(grid),
+        Format::Dxf => dxf::encode(grid),
+        Format::Compas => compas::write::encode(grid),
+        Format::Vtu => vtu::encode(grid),
+        Format::Saf => saf::encode(grid)
+            .map_err(|message| Error::Option(format!("{}: {message}", path.display())))?,
+        Format::Ifc => ifc::encode(grid),
+        Format::OpenSees => opensees::encode(grid),
+    };
+    file::replace(path, &bytes)?;
+    Ok(vec![path.to_owned()])
+}
+
+/// `a.csv` becomes `a.nodes.csv` and its sisters.
+fn write_tables(path: &Path, grid: &GridFile) -> Result<Vec<PathBuf>> {
+    let one = |(name, text): (&str, String)| {
+        let path = path.with_extension(format!("{name}.csv"));
+        file::replace(&path, text.as_bytes())?;
+        Ok(path)
+    };
+    csv::tables(grid).into_iter().map(one).collect()
+}
+
+/// Whether [`write()`] knows a format for this path: to be asked before long work.
+///
+/// # Errors
+/// [`Error::Option`] listing the known ends.
+pub fn check_output(path: &Path) -> Result<()> {
+    Format::of(path).map(|_| ())
+}

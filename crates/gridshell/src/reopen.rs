@@ -1,0 +1,223 @@
+//! A grid from a file, on its surface again: to be measured, written in another format, or gone on with.
+
+use crate::edit::Editor;
+use crate::error::{Error, Result};
+use crate::grid::{Grid, Place};
+use crate::io::{self, Document, Opening};
+use crate::mesh::Mesh;
+use crate::pipeline;
+use crate::recipe::Recipe;
+use crate::run::SurfaceSummary;
+use crate::structure::Supports;
+use crate::surface::{Model, PolygonMesh, Sampling, Surface};
+use glam::DVec3;
+use std::path::Path;
+
+/// A node of a grid file stands at its place if it is no further off than this share of the edge length.
+const AT_PLACE: f64 = 1e-6;
+
+/// A grid that was read, and the surface it lies on.
+pub struct Opened {
+    /// What the file says, or what can be said of a grid from another format.
+    pub document: Document,
+    /// The grid.
+    pub grid: Grid,
+    /// The design surface; the grid itself where that is not known.
+    pub surface: Surface,
+    /// Figures of the design surface, where it is known.
+    pub summary: Option<SurfaceSummary>,
+    /// Wanted member length: the run's, else the mean length; metres.
+    pub edge_length: f64,
+    /// The run's recipe, else the default one.
+    pub recipe: Recipe,
+    /// What the user should know.
+    pub notes: Vec<String>,
+}
+
+/// Open the grid in a file, on the surface of this name or path; without one on the surface that a `.gridshell` file
+/// refers to, or by itself. `opening` says how the surface is read, or the grid where there is none.
+///
+/// # Errors
+/// [`Error::Io`], [`Error::Parse`] with line or element, [`Error::Surface`] where the panels are no manifold or the
+/// surface cannot carry them, [`Error::Option`] for a surface or format that is not known.
+pub fn open(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
+    let native = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gridshell"));
+    if native { open_document(path, surface, opening) } else { open_mesh(path, surface, opening) }
+}
+
+fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
+    // Where both are given, the unit is the surface's: our grids state their own.
+    let of_grid = if surface.is_some() { Opening::default() } else { opening.clone() };
+    let PolygonMesh { name, points, faces, notes, .. } = io::read_mesh_with(path, &of_grid)?;
+    let panels = panels(path, &faces)?;
+    let edge_length = mean_side(&points, &panels);
+    let recipe = Recipe::default();
+    let (grid, surface, summary, reference) = match surface {
+        None => {
+            let (grid, surface) = Grid::alone(&name, points, &panels)?;
+            (grid, surface, None, None)
+        }
+        Some(wanted) => {
+            let model = io::open_with(wanted, opening)?;
+            let surface = sample(&model, edge_length, &recipe)?;
+            let grid = Grid::from_panels(points, &panels, &surface)?;
+            let summary = SurfaceSummary::new(&model, &surface);
+            (grid, surface, Some(summary), Some(io::reference(wanted, opening)?))
+        }
+    };
+    let supports = Supports::Boundary.nodes(&grid, &surface)?;
+    let document = Document { surface: reference, supports, ..Document::of_grid(&name, &grid) };
+    Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes })
+}
+
+fn open_document(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
+    let mut document = io::read_document(path)?;
+    let mut notes = Vec::new();
+    let model = match (surface, &document.surface) {
+        (Some(wanted), _) => {
+            document.surface = Some(io::reference(wanted, opening)?);
+            Some(io::open_with(wanted, opening)?)
+        }
+        (None, Some(reference)) => match io::open_reference(reference, path) {
+            Ok(model) => Some(model),
+            Err(e) => {
+                notes.push(format!("{e}; the grid is taken for its own surface"));
+                None
+            }
+        },
+        (None, None) => None,
+    };
+    let xyz: Vec<DVec3> = document.nodes.iter().map(|&p| p.into()).collect();
+    let recipe = document.recipe.clone().unwrap_or_default();
+    let edge_length = document.edge_length.unwrap_or_else(|| mean_side(&xyz, &document.panels));
+    let Some(model) = model else {
+        let (grid, surface) = Grid::alone(&document.name, xyz, &document.panels)?;
+        let grid = with_features(grid, &document)?;
+        return Ok(Opened { document, grid, surface, summary: None, edge_length, recipe, notes });
+    };
+    let surface = match &document.recipe {
+        Some(recipe) => pipeline::surface(&model, recipe)?.0,
+        None => sample(&model, edge_length, &recipe)?,
+    };
+    let summary = Some(SurfaceSummary::new(&model, &surface));
+    let grid = match at_places(&document, &xyz, &surface, edge_length) {
+        Some(places) => {
+            let mesh = Mesh::from_triangles(xyz.len(), &document.panels)?;
+            Grid { mesh, places, xyz }
+        }
+        None => Grid::from_panels(xyz, &document.panels, &surface)?,
+    };
+    let grid = with_features(grid, &document)?;
+    Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes })
+}
+
+/// The file's places, if all of them are on this surface and the nodes stand there.
+fn at_places(
+    document: &Document,
+    xyz: &[DVec3],
+    surface: &Surface,
+    edge_length: f64,
+) -> Option<Vec<Place>> {
+    if document.places.len() != xyz.len() {
+        return None;
+    }
+    let stands = |(record, x): (&io::PlaceRecord, &DVec3)| {
+        let place = Place::from(*record);
+        let known = is_on(&place, surface);
+        let near = || place.exact(surface).distance(*x) <= AT_PLACE * edge_length;
+        (known && near()).then_some(place)
+    };
+    document.places.iter().zip(xyz).map(stands).collect()
+}
+
+/// Whether there is such a place on the surface.
+fn is_on(place: &Place, surface: &Surface) -> bool {
+    match place {
+        Place::Interior(p) | Place::Fixed(p) => {
+            (p.triangle as usize) < surface.carrier.triangles.len()
+        }
+        Place::Boundary(c) | Place::Corner(c) => {
+            surface.loops.get(c.chain as usize).is_some_and(|l| (0.0..=l.length()).contains(&c.s))
+        }
+        Place::Feature(c) => {
+            let chain = surface.features.get(c.chain as usize);
+            chain.is_some_and(|f| (0.0..=f.length()).contains(&c.s))
+        }
+    }
+}
+
+/// The grid with its features marked and its fixed nodes pinned.
+fn with_features(mut grid: Grid, document: &Document) -> Result<Grid> {
+    for &[a, b] in &document.features {
+        grid.mesh.mark_feature(a, b)?;
+    }
+    for (v, place) in grid.places.iter().enumerate() {
+        if place.is_fixed() {
+            grid.mesh.pin(v as u32, true);
+        }
+    }
+    Ok(grid)
+}
+
+/// The document of a grid after editing: the grid as it is, numbered anew, and the edits behind those it had. Supports
+/// and anchors follow their nodes; where the whole boundary was supported, it is again.
+pub fn edited(document: &Document, editor: &Editor) -> Document {
+    let grid = editor.finished();
+    let now: Vec<u32> = editor.grid().mesh.vertices().collect();
+    let follow = |nodes: &[u32]| -> Vec<u32> {
+        nodes.iter().filter_map(|v| now.binary_search(v).ok()).map(|v| v as u32).collect()
+    };
+    let border: Vec<u32> = grid.mesh.vertices().filter(|&v| grid.mesh.is_boundary(v)).collect();
+    // A node that an edit made on a supported boundary stands on it too.
+    let held = follow(&document.supports);
+    let kept = border.iter().filter(|&&v| now[v as usize] < document.nodes.len() as u32);
+    let whole = !held.is_empty() && kept.clone().all(|v| held.binary_search(v).is_ok());
+    let supports = if whole { border } else { held };
+    let done = editor.history().map(|(edit, _)| serde_json::json!(edit));
+    let fresh = Document::of_grid(&document.name, &grid);
+    Document {
+        places: grid.places.iter().map(|&p| p.into()).collect(),
+        edits: document.edits.iter().cloned().chain(done).collect(),
+        anchors: follow(&document.anchors),
+        supports,
+        nodes: fresh.nodes,
+        panels: fresh.panels,
+        features: fresh.features,
+        ..document.clone()
+    }
+}
+
+/// Sampled as finely as for generating a grid of this edge length.
+fn sample(model: &Model, edge_length: f64, recipe: &Recipe) -> Result<Surface> {
+    let corner_angle = recipe.corner_angle_deg.to_radians();
+    model.surface(&Sampling {
+        max_edge: edge_length / 2.0,
+        chord_error: edge_length * 2e-3,
+        corner_angle,
+    })
+}
+
+/// The faces as panels, if all are triangles.
+fn panels(path: &Path, faces: &[Vec<u32>]) -> Result<Vec<[u32; 3]>> {
+    let wrong =
+        |place: String, message: String| Error::Parse { path: path.to_owned(), place, message };
+    if faces.is_empty() {
+        return Err(wrong("whole file".into(), "there are no panels in it".into()));
+    }
+    let panel = |(k, face): (usize, &Vec<u32>)| {
+        <[u32; 3]>::try_from(face.as_slice()).map_err(|_| {
+            let message =
+                format!("it has {} corners: a grid has triangular panels only", face.len());
+            wrong(format!("face {k}"), message)
+        })
+    };
+    faces.iter().enumerate().map(panel).collect()
+}
+
+/// Mean length of the panels' sides, metres. Inner members count twice; good enough for a yardstick.
+fn mean_side(points: &[DVec3], panels: &[[u32; 3]]) -> f64 {
+    let side =
+        |t: &[u32; 3], k: usize| points[t[k] as usize].distance(points[t[(k + 1) % 3] as usize]);
+    let sum: f64 = panels.iter().map(|t| (0..3).map(|k| side(t, k)).sum::<f64>()).sum();
+    sum / (3.0 * panels.len().max(1) as f64)
+}

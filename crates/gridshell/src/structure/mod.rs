@@ -1,0 +1,81 @@
+//! What hand-over files state beside the grid: section and material of the members, the panes, the supports. They
+//! are stated assumptions for the engineer to replace, no design.
+
+mod material;
+mod section;
+mod supports;
+
+pub use material::Material;
+pub use section::{Properties, Section, Shape};
+pub use supports::Supports;
+
+use crate::error::{Error, Result};
+
+/// Members and panels as engineering formats want them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Structure {
+    /// Section of all members, its height along the members' local z axis.
+    pub section: Section,
+    /// Material of all members.
+    pub material: Material,
+    /// Thickness of the panels, millimetres.
+    pub pane_mm: f64,
+    /// Version of SAF files.
+    pub saf: SafVersion,
+}
+
+/// Versions of the Structural Analysis Format.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SafVersion {
+    /// 1.0.5, for older programs.
+    V105,
+    /// 2.0.0.
+    #[default]
+    V200,
+}
+
+impl SafVersion {
+    /// As files state it.
+    pub fn number(self) -> &'static str {
+        match self {
+            SafVersion::V105 => "1.0.5",
+            SafVersion::V200 => "2.0.0",
+        }
+    }
+}
+
+impl std::str::FromStr for SafVersion {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<SafVersion> {
+        let all = [SafVersion::V105, SafVersion::V200];
+        all.into_iter().find(|v| v.number() == text).ok_or_else(|| {
+            Error::Option(format!("no SAF version {text:?}; there are: 2.0.0, 1.0.5"))
+        })
+    }
+}
+
+impl Structure {
+    /// Material of the panels.
+    pub const PANE: Material = Material {
+        name: "Float glass",
+        kind: "Other",
+        youngs_mpa: 70_000.0,
+        shear_mpa: 28_455.0,
+        poisson: 0.23,
+        density: 2500.0,
+        expansion: 9e-6,
+    };
+}
+
+impl Default for Structure {
+    /// Steel S355, hollow sections 100 x 60 x 5 mm set upright, panes of 16 mm.
+    fn default() -> Self {
+        Structure {
+            section: Section::default(),
+            material: Material::default(),
+            pane_mm: 16.0,
+            saf: SafVersion::default(),
+        }
+    }
+}
