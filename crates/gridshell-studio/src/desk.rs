@@ -241,9 +241,9 @@ impl Desk {
         while high - low > 0.5 {
             let middle = f64::midpoint(low, high);
             if pipeline::length_for(&opened.sketch, middle as usize) > edge_length {
-                low = middle
+                low = middle;
             } else {
-                high = middle
+                high = middle;
             }
         }
         Ok(Event::Estimate { edge_length, nodes: high.round() as u32 })
