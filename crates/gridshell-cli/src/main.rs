@@ -1,16 +1,22 @@
 //! The command `gridshell`: reads arguments, calls the library, prints. All geometry is in the library.
 
 mod args;
+mod compare;
 mod convert;
+mod draw;
+mod facts;
 mod failure;
 mod generate;
 mod handover;
 mod inspect;
 mod measure;
+mod open;
 mod picture;
 mod progress;
 mod recipe;
+mod report;
 mod say;
+mod subject;
 mod surfaces;
 mod table;
 
@@ -34,6 +40,8 @@ fn main() -> ExitCode {
         Command::Generate(args) => generate::run(args),
         Command::Measure(args) => measure::run(args),
         Command::Convert(args) => convert::run(args),
+        Command::Draw(args) => draw::run(args),
+        Command::Compare(args) => compare::run(args),
         Command::Inspect(args) => inspect::run(args),
         Command::Surfaces => surfaces::run(),
     };

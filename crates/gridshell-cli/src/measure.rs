@@ -3,8 +3,7 @@
 use crate::Outcome;
 use crate::args::Measure;
 use crate::failure::Failure;
-use crate::{recipe, say, table};
-use gridshell::reopen;
+use crate::{open, say, table};
 use gridshell::run::SurfaceSummary;
 use gridshell::schedule::{Figures, Schedule, Tolerances};
 use gridshell::stages::measure::{IrregularNode, Quality, irregular_nodes, measure};
@@ -26,9 +25,7 @@ struct Document {
 }
 
 pub fn run(args: &Measure) -> Result<Outcome, Failure> {
-    let mut opened = reopen::open(&args.grid, args.surface.as_deref(), &args.reading.opening())
-        .map_err(Failure::of_input)?;
-    recipe::tolerances(&mut opened.recipe, &args.alike);
+    let opened = open::open(&args.grid)?;
     let (grid, surface) = (&opened.grid, &opened.surface);
     let options = &opened.recipe.measure;
     let quality = measure(grid, surface, opened.edge_length, options);
