@@ -211,6 +211,9 @@ pub struct Convert {
 pub struct Measure {
     #[command(flatten)]
     pub grid: GridArgs,
+    /// One page of the grid with pictures, a view to turn, figures and tables; opens without a network.
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,

@@ -9,9 +9,9 @@ use crate::picture::svg::escaped;
 use crate::report::{self, Colored};
 use crate::subject::{Measured, Subject};
 use crate::{recipe, say};
+use gridshell::reopen;
 use gridshell::schedule::Figures;
 use gridshell::stages::measure::Quality;
-use gridshell::{io, reopen};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;
@@ -27,10 +27,17 @@ struct Document<'a> {
 
 #[derive(Serialize)]
 struct Entry<'a> {
-    grid: String,
+    grid: &'a str,
     edge_length: f64,
     quality: &'a Quality,
     figures: &'a Figures,
+}
+
+impl<'a> Entry<'a> {
+    fn new(name: &'a str, measured: &'a Measured) -> Entry<'a> {
+        let Subject { edge_length, quality, schedule, .. } = measured.subject();
+        Entry { grid: name, edge_length, quality, figures: &schedule.figures }
+    }
 }
 
 pub fn run(args: &Compare) -> Result<Outcome, Failure> {
@@ -51,24 +58,15 @@ pub fn run(args: &Compare) -> Result<Outcome, Failure> {
         .collect();
     if let Some(file) = &args.html {
         let subjects: Vec<Subject> = grids.iter().map(|(_, m)| m.subject()).collect();
-        io::replace(file, page(&columns, &subjects).as_bytes()).map_err(Failure::other)?;
+        report::write(file, &page(&columns, &subjects))?;
         say::note(&format!("wrote {}", file.display()));
     }
     if args.json {
-        let entry = |(name, measured): &'_ (String, Measured)| {
-            let s = measured.subject();
-            (name.clone(), s.edge_length)
-        };
-        let names: Vec<(String, f64)> = grids.iter().map(entry).collect();
-        let entries = names.into_iter().zip(&grids).map(|((grid, edge_length), (_, m))| {
-            let Subject { quality, schedule, .. } = m.subject();
-            Entry { grid, edge_length, quality, figures: &schedule.figures }
-        });
         say::json(&Document {
             schema: "gridshell.compare/1",
             version: env!("CARGO_PKG_VERSION"),
             units: "m",
-            grids: entries.collect(),
+            grids: grids.iter().map(|(name, measured)| Entry::new(name, measured)).collect(),
         })?;
     } else {
         say::result(&table(&columns))?;

@@ -51,9 +51,8 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
     let file = GridFile { document: &document, schedule: &run.schedule, structure: &structure };
     let mut wrote = handover::write_all(&outputs, &file)?;
     if let Some(path) = &args.report {
-        let (surface, _) = pipeline::surface(&model, &recipe)?;
-        let page = report::page(&Subject::of_run(&run, &document, &surface), Some(&run));
-        io::replace(path, page.as_bytes()).map_err(Failure::other)?;
+        let page = report::page(&Subject::of_run(&run, &document), Some(&run));
+        report::write(path, &page)?;
         wrote += &format!("\nwrote {}", path.display());
     }
     if args.json {

@@ -3,17 +3,15 @@
 use gridshell::grid::Grid;
 use gridshell::io::Document;
 use gridshell::reopen::Opened;
-use gridshell::run::Run;
+use gridshell::run::{Run, SurfaceSummary};
 use gridshell::schedule::{Schedule, Tolerances};
 use gridshell::stages::measure::{Quality, measure};
-use gridshell::surface::Surface;
 
 /// A grid with all that is known of it. Metres.
 #[derive(Clone, Copy)]
 pub struct Subject<'a> {
     pub document: &'a Document,
     pub grid: &'a Grid,
-    pub surface: &'a Surface,
     pub schedule: &'a Schedule,
     pub quality: &'a Quality,
     /// What lengths are measured against.
@@ -39,11 +37,15 @@ impl Measured {
         Subject {
             document: &self.opened.document,
             grid: &self.opened.grid,
-            surface: &self.opened.surface,
             schedule: &self.schedule,
             quality: &self.quality,
             edge_length: self.opened.edge_length,
         }
+    }
+
+    /// Figures of the design surface, where it is known.
+    pub fn summary(&self) -> Option<&SurfaceSummary> {
+        self.opened.summary.as_ref()
     }
 
     /// What the user should know.
@@ -53,11 +55,10 @@ impl Measured {
 }
 
 impl<'a> Subject<'a> {
-    pub fn of_run(run: &'a Run, document: &'a Document, surface: &'a Surface) -> Subject<'a> {
+    pub fn of_run(run: &'a Run, document: &'a Document) -> Subject<'a> {
         Subject {
             document,
             grid: &run.grid,
-            surface,
             schedule: &run.schedule,
             quality: &run.quality,
             edge_length: run.edge_length,

@@ -12,6 +12,7 @@ use crate::picture::colour::{Coloring, Colours};
 use crate::picture::svg::escaped;
 use crate::picture::view::View;
 use crate::subject::Subject;
+use gridshell::io;
 use gridshell::run::Run;
 use std::path::Path;
 
@@ -40,6 +41,11 @@ pub fn check(file: &Path) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// Write a page; it appears whole or not at all.
+pub fn write(file: &Path, page: &str) -> Result<(), Failure> {
+    io::replace(file, page.as_bytes()).map_err(Failure::other)
 }
 
 /// The page of a grid, and of the run that made it if there is one.

@@ -48,8 +48,9 @@
     for (let j = 0; j < 3; j++) normals[3 * k + j] = n[j] / length;
   }
 
-  const home = { turn: -0.54, tilt: 0.56, zoom: 1, right: 0, up: 0 };
-  let eye = { ...home };
+  // Turned as in the perspective picture; zoom and place follow from the canvas.
+  const HOME = { turn: -0.54, tilt: 0.56, zoom: 1, right: 0, up: 0 };
+  let eye = null;
   let showPanels = true;
   let dragging = false;
   let asked = false;
@@ -76,6 +77,24 @@
     }
     const towards = [sz * cx, -cz * cx, sx];
     return { scale, towards };
+  }
+
+  // The view from home that fills the canvas.
+  function fit(width, height) {
+    eye = { ...HOME };
+    look(width, height);
+    const low = [Infinity, Infinity];
+    const high = [-Infinity, -Infinity];
+    for (let i = 0; i < seen.length; i += 3) {
+      for (const k of [0, 1]) {
+        low[k] = Math.min(low[k], seen[i + k]);
+        high[k] = Math.max(high[k], seen[i + k]);
+      }
+    }
+    const size = [0, 1].map((k) => Math.max(high[k] - low[k], 1));
+    eye.zoom = 0.93 * Math.min(width / size[0], height / size[1]);
+    eye.right = -eye.zoom * ((low[0] + high[0]) / 2 - width / 2);
+    eye.up = -eye.zoom * ((low[1] + high[1]) / 2 - height / 2);
   }
 
   function sorted(drawPanels) {
@@ -112,11 +131,12 @@
     pen.fillRect(0, 0, width, height);
     pen.lineJoin = "round";
     pen.lineCap = "round";
+    if (!eye) fit(width, height);
     const { scale, towards } = look(width, height);
     const many = panelCount + memberCount > MANY;
     sorted(showPanels && !(dragging && many));
     const colours = colourings[document.body.dataset.colour];
-    const thin = Math.min(2.2, Math.max(0.5, 0.055 * data.member_length * scale));
+    const thin = Math.min(3, Math.max(0.7, 0.055 * data.member_length * scale));
     const dot = Math.min(7, Math.max(1.5, 0.13 * data.member_length * scale));
     for (const i of order) {
       if (i < panelCount) panel(i, colours, towards);
@@ -186,7 +206,7 @@
   });
   canvas.addEventListener("pointermove", (e) => {
     const before = pointers.get(e.pointerId);
-    if (!before) return;
+    if (!before || !eye) return;
     const [dx, dy] = [e.clientX - before[0], e.clientY - before[1]];
     if (pointers.size === 2) {
       const other = [...pointers].find(([id]) => id !== e.pointerId)[1];
@@ -219,11 +239,12 @@
     { passive: false },
   );
   canvas.addEventListener("dblclick", () => {
-    eye = { ...home };
+    eye = null;
     ask();
   });
   canvas.addEventListener("keydown", (e) => {
     const step = { ArrowLeft: [0.1, 0], ArrowRight: [-0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[e.key];
+    if (!eye) return;
     if (step) {
       eye.turn += step[0];
       eye.tilt += step[1];
@@ -234,7 +255,12 @@
     ask();
   });
   function zoom(by) {
-    eye.zoom = Math.min(60, Math.max(0.2, eye.zoom * by));
+    if (!eye) return;
+    const to = Math.min(60, Math.max(0.1, eye.zoom * by));
+    // The middle of the canvas stays where it is.
+    eye.right *= to / eye.zoom;
+    eye.up *= to / eye.zoom;
+    eye.zoom = to;
     ask();
   }
 
