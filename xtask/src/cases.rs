@@ -2,7 +2,7 @@
 //!
 //! The folder has a README.md with a table whose columns begin with `file`, `what`, `area m2`, `loops` and `l0`.
 //! A row may name several files: `roof.step, .igs` or `B_roof_ap203.step, _ap242.step`. Files with an l0 get a
-//! grid, the others are only inspected. A row `broken/` stands for every file in that folder: each is to be
+//! grid, the others are only inspected; all of them count in the unit that the row's area shows. A row `broken/` stands for every file in that folder: each is to be
 //! refused with exit code 3, or opened with notes, within ten seconds and a gigabyte.
 
 use crate::build::{self, target};
@@ -24,13 +24,38 @@ const MOST_MEGABYTES: f64 = 1000.0;
 #[derive(Debug, PartialEq)]
 struct Case {
     file: String,
-    area: Option<f64>,
+    area: Option<Told>,
     loops: Option<u64>,
     edge_length: Option<f64>,
 }
 
-/// Run all cases of `folder`, or those whose file begins with one of `names`.
-pub fn run(folder: &Path, names: &[&str]) -> Result<(), String> {
+/// An area as the table tells it, with the error that its digits leave.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Told {
+    value: f64,
+    error: f64,
+}
+
+impl Told {
+    fn parse(cell: &str) -> Option<Told> {
+        let word = cell.split_whitespace().next()?;
+        let value: f64 = word.parse().ok()?;
+        let decimals = word.split_once('.').map_or(0, |(_, d)| d.len());
+        Some(Told { value, error: (1e-4 * value).max(0.5 * 0.1f64.powi(decimals as i32)) })
+    }
+
+    /// The row's unit in the file's metres: 1, or a thousandth where the row speaks of millimetres.
+    fn unit(self, area: f64) -> f64 {
+        let fits = |unit: &f64| (area / (unit * unit) - self.value).abs() <= self.error;
+        [1.0, 1e-3].into_iter().find(fits).unwrap_or(1.0)
+    }
+}
+
+/// Run all cases of `folder`, or those whose file begins with one of the `words`; `--draft` among them makes quick
+/// grids.
+pub fn run(folder: &Path, words: &[&str]) -> Result<(), String> {
+    let (draft, names): (Vec<&str>, Vec<&str>) = words.iter().partition(|&&w| w == "--draft");
+    let effort = if draft.is_empty() { "standard" } else { "draft" };
     let table = fs::read_to_string(folder.join("README.md"))
         .map_err(|e| format!("{}: {e}", folder.join("README.md").display()))?;
     let gridshell = build::gridshell()?;
@@ -40,7 +65,8 @@ pub fn run(folder: &Path, names: &[&str]) -> Result<(), String> {
     for case in cases.iter().filter(|c| !c.file.ends_with('/')) {
         println!(
             "{}",
-            measure(&gridshell, folder, case).unwrap_or_else(|e| format!("{:26} {e}", case.file))
+            measure(&gridshell, folder, case, effort)
+                .unwrap_or_else(|e| format!("{:26} {e}", case.file))
         );
     }
     for case in cases.iter().filter(|c| c.file.ends_with('/')) {
@@ -74,7 +100,7 @@ fn parse_row(line: &str) -> Vec<Case> {
     let names = names(files);
     let case = |file: String| Case {
         file,
-        area: number(area),
+        area: Told::parse(area),
         loops: loops.parse().ok(),
         edge_length: number(edge_length),
     };
@@ -97,12 +123,16 @@ fn names(cell: &str) -> Vec<String> {
     names
 }
 
-fn measure(gridshell: &Path, folder: &Path, case: &Case) -> Result<String, String> {
+fn measure(gridshell: &Path, folder: &Path, case: &Case, effort: &str) -> Result<String, String> {
     let file = folder.join(&case.file);
+    let inspected = watched::run(Command::new(gridshell).args(["inspect", "--json"]).arg(&file))?;
     let Some(edge_length) = case.edge_length else {
-        let run = watched::run(Command::new(gridshell).arg("inspect").arg(&file))?;
-        return Ok(broken_row(Path::new(&case.file), &run));
+        return Ok(broken_row(Path::new(&case.file), &inspected));
     };
+    let known: Value = serde_json::from_str(&inspected.stdout).unwrap_or_default();
+    let area = known["surface"]["area"].as_f64().unwrap_or(f64::NAN);
+    let unit = case.area.map_or(1.0, |told| told.unit(area));
+    let edge_length = unit * edge_length;
     let stem = case.file.replace(['/', '.'], "_");
     let output = target().join("cases").join(format!("{stem}.obj"));
     fs::create_dir_all(target().join("cases")).map_err(|e| e.to_string())?;
@@ -112,6 +142,8 @@ fn measure(gridshell: &Path, folder: &Path, case: &Case) -> Result<String, Strin
         "--part",
         "all",
         "--json",
+        "--effort",
+        effort,
         "--edge-length",
         &edge_length.to_string(),
         "-o",
@@ -121,7 +153,7 @@ fn measure(gridshell: &Path, folder: &Path, case: &Case) -> Result<String, Strin
         let code = run.code.map_or("none".into(), |c| c.to_string());
         format!("exit {code} after {:.1} s: {}", run.seconds, run.stderr.trim())
     })?;
-    Ok(row(case, edge_length, &document, &run))
+    Ok(row(case, edge_length, unit, &document, &run))
 }
 
 /// What became of a file that is only opened.
@@ -137,11 +169,11 @@ fn broken_row(file: &Path, run: &Watched) -> String {
     format!("{name:28} {code:>4} {:8.2} {:5.0}  {said}{mark}", run.seconds, run.megabytes)
 }
 
-fn row(case: &Case, edge_length: f64, document: &Value, run: &Watched) -> String {
+fn row(case: &Case, edge_length: f64, unit: f64, document: &Value, run: &Watched) -> String {
     let q = &document["quality"];
     let at = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
     let surface = &document["surface"];
-    let remarks = remarks(case, surface);
+    let remarks = remarks(case, unit, surface);
     format!(
         "{:26} {:7} {:8.4} {:7.4} {:7.4} {:5.3} {:6.3} ({:5.3}) {:6.2} ({:5.2}) {:6.2} {:5} {:5} {:9.4} {:11.4} {:12.1e} {:13.1e} {:4} {:6} {:8.1} {:5.0}{remarks}",
         case.file,
@@ -169,11 +201,14 @@ fn row(case: &Case, edge_length: f64, document: &Value, run: &Watched) -> String
 }
 
 /// Where the surface is not what the folder's table says.
-fn remarks(case: &Case, surface: &Value) -> String {
+fn remarks(case: &Case, unit: f64, surface: &Value) -> String {
     let mut remarks = String::new();
-    let area = surface["area"].as_f64().unwrap_or(f64::NAN);
-    if let Some(told) = case.area.filter(|told| (area / told - 1.0).abs() > 1e-4) {
-        remarks += &format!("  area {area} is not {told}");
+    let area = surface["area"].as_f64().unwrap_or(f64::NAN) / (unit * unit);
+    if unit != 1.0 {
+        remarks += "  in mm";
+    }
+    if let Some(told) = case.area.filter(|told| (area - told.value).abs() > told.error) {
+        remarks += &format!("  area {area} is not {}", told.value);
     }
     if let Some(told) = case.loops.filter(|&told| surface["loops"].as_u64() != Some(told)) {
         remarks += &format!("  {} loops, not {told}", surface["loops"]);
@@ -184,6 +219,14 @@ fn remarks(case: &Case, surface: &Value) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn areas_count_in_the_unit_that_they_show() {
+        let told = Told::parse("309202 mm2").expect("an area");
+        assert_eq!([told.unit(309202.3), told.unit(0.3092018), told.unit(7.0)], [1.0, 1e-3, 1.0]);
+        assert_eq!(Told::parse("40.9").map(|t| t.unit(40.87)), Some(1.0));
+        assert_eq!(Told::parse(""), None);
+    }
 
     #[test]
     fn rows_name_all_their_files() {

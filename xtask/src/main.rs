@@ -21,8 +21,9 @@ usage: cargo xtask CHORE
   lint                    format, clippy and rustdoc, warnings denied
   test                    lint, then every test, the documentation's included, then what `readers` does
   readers                 programs that others wrote read back every format (installs them below the target folder)
-  cases FOLDER [NAME]...  a grid on every case in FOLDER's README.md table (or the named ones), as a table,
-                          and what becomes of its broken files
+  cases FOLDER [--draft] [NAME]...
+                          a grid on every case in FOLDER's README.md table (or the named ones), as a table,
+                          and what becomes of its broken files; --draft: quick grids
   bench quality [--cases FOLDER] [--quick] [NAME]...
                           the figures of all grids against their bars, into docs/quality.md unless only
                           some are named; --cases: on STEP files, --quick: one seed

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Numbers of tests.
+#[derive(Clone, Copy, Debug)]
 pub struct Tally {
     pub passed: usize,
     pub failed: usize,

@@ -27,6 +27,8 @@ pub enum Command {
     Generate(Box<Generate>),
     /// Measure a grid.
     Measure(Measure),
+    /// Edit a grid: replay a log of edits on it, and suggest more.
+    Edit(Edit),
     /// Write a grid in other formats.
     Convert(Convert),
     /// Draw a grid on a sheet to scale.
@@ -255,6 +257,34 @@ pub struct Compare {
     /// A page with the table and a plan of each grid.
     #[arg(long, value_name = "FILE.html")]
     pub html: Option<PathBuf>,
+    /// Print one JSON document on stdout, and nothing else there.
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(ClapArgs)]
+pub struct Edit {
+    /// A grid: a `.gridshell` file or a triangle mesh (OBJ, PLY, STL, OFF, glTF, COMPAS JSON).
+    pub grid: PathBuf,
+    /// The edits, as JSON: see docs/editing.md.
+    #[arg(long, value_name = "FILE.json")]
+    pub log: Option<PathBuf>,
+    /// The surface it was laid on: a file or a built-in name. Without it a `.gridshell` file tells, and else the grid
+    /// itself is the surface.
+    #[arg(short, long, value_name = "SURFACE")]
+    pub surface: Option<String>,
+    #[command(flatten)]
+    pub reading: Reading,
+    /// Where to write the edited grid, in the format of the name's end, as for `generate`; may be given more than once.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+    #[command(flatten)]
+    pub handover: Handover,
+    #[command(flatten)]
+    pub alike: Alike,
+    /// So many more edits that would better the grid, the best first.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub suggest: usize,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,

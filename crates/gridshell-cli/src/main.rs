@@ -4,6 +4,7 @@ mod args;
 mod compare;
 mod convert;
 mod draw;
+mod edit;
 mod facts;
 mod failure;
 mod generate;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
     let result = match &args.command {
         Command::Generate(args) => generate::run(args),
         Command::Measure(args) => measure::run(args),
+        Command::Edit(args) => edit::run(args),
         Command::Convert(args) => convert::run(args),
         Command::Draw(args) => draw::run(args),
         Command::Compare(args) => compare::run(args),

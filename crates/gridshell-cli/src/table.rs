@@ -22,10 +22,10 @@ pub fn run(run: &Run) -> String {
         let quality = part.fluency.map_or("inf".to_owned(), |q| format!("{q:.2}"));
         let _ = writeln!(
             text,
-            "part {}: {}, {:.4} m2, Q {quality}",
+            "part {}: {}, {} m2, Q {quality}",
             part.number,
             count(part.nodes, "node"),
-            part.area
+            four_digits(part.area)
         );
     }
     text += "\n";
@@ -77,8 +77,8 @@ pub fn inspection(i: &Inspection) -> String {
     for (k, boundary) in s.boundaries.iter().enumerate() {
         let _ = writeln!(
             text,
-            "loop {k}: {:.4} m, {}",
-            boundary.length,
+            "loop {k}: {} m, {}",
+            four_digits(boundary.length),
             count(boundary.corners, "corner")
         );
     }
@@ -132,6 +132,12 @@ fn origin(i: &Inspection) -> String {
     parts.join(", ") + "\n"
 }
 
+/// Four decimals, and for what is smaller than one as many as show four digits.
+fn four_digits(x: f64) -> String {
+    let digits = (4..16).find(|&d| x == 0.0 || x.abs() * 10f64.powi(d) >= 1000.0).unwrap_or(16);
+    format!("{x:.0$}", digits.max(4) as usize)
+}
+
 /// A length to three digits, metres.
 fn three_digits(x: f64) -> String {
     let digits = (0..9).find(|&d| x * 10f64.powi(d) >= 100.0).unwrap_or(9) as usize;
@@ -141,9 +147,9 @@ fn three_digits(x: f64) -> String {
 fn surface_line(s: &SurfaceSummary) -> String {
     let patches = if s.patches == 0 { "mesh".to_owned() } else { count(s.patches, "patch") };
     format!(
-        "{}: {patches}, {:.4} m2, {}, {}",
+        "{}: {patches}, {} m2, {}, {}",
         s.name,
-        s.area,
+        four_digits(s.area),
         count(s.loops, "loop"),
         count(s.corners, "corner")
     )

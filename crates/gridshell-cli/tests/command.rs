@@ -322,8 +322,11 @@ fn a_run_on_a_file_in_another_unit_and_on_a_part_is_repeated() {
     let folder = folder();
     let square = |x: f64, first: usize| {
         let corners = [[0.0, 0.0], [4000.0, 0.0], [4000.0, 4000.0], [0.0, 4000.0]];
-        let nodes: String =
-            corners.iter().map(|c| format!("v {} {} 0\n", c[0] + x, c[1])).collect();
+        let nodes: String = corners
+            .iter()
+            .map(|c| format!("v {} {} 0\n", c[0] + x, c[1]))
+            .collect::<Vec<_>>()
+            .concat();
         format!("{nodes}f {} {} {} {}\n", first, first + 1, first + 2, first + 3)
     };
     fs::write(folder.path().join("two.obj"), square(0.0, 1) + &square(9000.0, 5)).expect("written");

@@ -7,6 +7,7 @@
 use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
 use gridshell::balance::{self, balance};
 use gridshell::bubbles::Bubbles;
+use gridshell::edit::{Edit, Editor};
 use gridshell::grid::Grid;
 use gridshell::job::Job;
 use gridshell::recipe::Recipe;
@@ -14,6 +15,7 @@ use gridshell::stages::{pack, regularize, triangulate};
 use gridshell::surface::chart::Chart;
 use gridshell::surface::{Sampling, Surface, builtin};
 use std::hint::black_box;
+use std::sync::Arc;
 
 /// Wanted members, metres: about 140, 520 and 2,000 nodes.
 const LENGTHS: [f64; 3] = [3.0, 1.5, 0.75];
@@ -146,5 +148,42 @@ fn scale(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, stages, scale);
+/// What editing takes: 2,000 and 5,000 nodes.
+fn edit(criterion: &mut Criterion) {
+    for length in [0.76, 0.48] {
+        let sampling =
+            Sampling { max_edge: 0.7 * length, chord_error: 2e-3 * length, corner_angle: 0.5 };
+        let surface = builtin::model("saddle").unwrap().surface(&sampling).unwrap();
+        let pieces = pack::boundary::pieces(&surface).len();
+        let chart = Chart::flatten(&surface).unwrap();
+        let lattice = pack::lattice::Lattice::draw(pieces, &mut fastrand::Rng::with_seed(1));
+        let bubbles = lattice.bubbles(&surface, &chart, length, 1.0, None);
+        let mut grid = triangulate::triangulate_in_chart(&surface, &chart, &bubbles).unwrap();
+        grid.settle_exactly(&surface);
+        let recipe = Recipe { edge_length: Some(length), ..Recipe::default() };
+        let mut editor = Editor::new(Arc::new(surface), grid, recipe, length);
+        let mesh = &editor.grid().mesh;
+        let inside = |&(a, b): &(u32, u32)| !mesh.is_boundary(a) && !mesh.is_boundary(b);
+        let nodes: [u32; 2] = mesh.edges().filter(inside).nth(500).unwrap().into();
+        let id = |what: &str| BenchmarkId::new(what, format!("{} nodes", mesh.vertex_count()));
+        let mut group = criterion.benchmark_group("edit");
+        group.sample_size(20);
+        let flip = Edit::Flip { nodes };
+        group.bench_function(id("preview of a flip"), |b| {
+            b.iter(|| editor.preview(black_box(&flip)).unwrap());
+        });
+        group.bench_function(id("hover"), |b| b.iter(|| editor.hover(nodes[0], nodes[1])));
+        group.bench_function(id("suggest 10"), |b| b.iter(|| editor.suggest(10)));
+        let id = id("apply and undo a flip");
+        group.bench_function(id, |b| {
+            b.iter(|| {
+                editor.apply(flip.clone()).unwrap();
+                editor.undo().unwrap();
+            });
+        });
+        group.finish();
+    }
+}
+
+criterion_group!(benches, stages, scale, edit);
 criterion_main!(benches);

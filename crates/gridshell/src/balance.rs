@@ -111,8 +111,11 @@ pub fn arc_over_chord(m: DVec3, n: DVec3) -> f64 {
 }
 
 /// The unit directions in which node `i` may move: two in the tangent plane, one along the boundary (and zero),
-/// none at a corner.
+/// none where it is fixed or pinned.
 fn directions(surface: &Surface, grid: &Grid, i: usize) -> [DVec3; 2] {
+    if grid.mesh.is_pinned(i as u32) {
+        return [DVec3::ZERO; 2];
+    }
     match &grid.places[i] {
         Place::Interior(p) => {
             let normal = surface.carrier.normal(p);

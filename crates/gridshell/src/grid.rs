@@ -15,11 +15,12 @@ pub enum Place {
     Interior(SurfacePoint),
     /// Free to slide along a boundary loop.
     Boundary(ChainPoint),
-    /// Fixed at a corner of a boundary loop: `chain` is the loop and `s` the corner's arc length.
+    /// Fixed at a corner of a boundary loop or an anchor on it: `chain` is the loop, `s` the arc length there.
     Corner(ChainPoint),
     /// Free to slide along a feature, of which `chain` is the number.
     Feature(ChainPoint),
-    /// Fixed at a vertex of the carrier inside: an anchor, or an end, junction or corner of a feature.
+    /// Fixed inside: an anchor, or an end, junction or corner of a feature. A vertex of the carrier, but for anchors
+    /// put in by hand.
     Fixed(SurfacePoint),
 }
 
@@ -82,8 +83,12 @@ impl Grid {
         }
     }
 
-    /// The part of `v` along which node `i` may move: in the tangent plane, along the boundary, not at all.
+    /// The part of `v` along which node `i` may move: in the tangent plane, along the boundary, not at all
+    /// (where it is fixed or pinned).
     pub fn tangential(&self, surface: &Surface, i: usize, v: DVec3) -> DVec3 {
+        if self.mesh.is_pinned(i as u32) {
+            return DVec3::ZERO;
+        }
         match &self.places[i] {
             Place::Interior(p) => {
                 let n = surface.carrier.normal(p);
@@ -102,8 +107,11 @@ impl Grid {
     }
 
     /// Slide node `i` by about `step` on the surface or along its loop or feature, where it keeps a distance from
-    /// its neighbours; gives the distance moved, metres.
+    /// its neighbours; gives the distance moved, metres. A pinned node stays.
     pub fn slide(&mut self, surface: &Surface, i: usize, step: DVec3) -> f64 {
+        if self.mesh.is_pinned(i as u32) {
+            return 0.0;
+        }
         let before = self.xyz[i];
         match &mut self.places[i] {
             Place::Interior(p) => {
@@ -132,6 +140,19 @@ impl Grid {
             Place::Corner(_) | Place::Fixed(_) => {}
         }
         self.xyz[i].distance(before)
+    }
+
+    /// How far node `i` may slide back and forward along its loop or feature, metres; None where it is on none.
+    pub(crate) fn room_on_line(&self, surface: &Surface, i: usize) -> Option<[f64; 2]> {
+        match self.places[i] {
+            Place::Boundary(at) => {
+                Some([false, true].map(|ahead| self.room(surface, i, at, ahead)))
+            }
+            Place::Feature(at) => {
+                Some(self.room_on_feature(&surface.features[at.chain as usize], i, at))
+            }
+            Place::Interior(_) | Place::Corner(_) | Place::Fixed(_) => None,
+        }
     }
 
     /// How far boundary node `i` at `at` may slide forward (or back) along its loop: part of the way to the
@@ -316,10 +337,10 @@ impl Place {
     /// The exact position on the design surface.
     pub fn exact(&self, surface: &Surface) -> DVec3 {
         match self {
-            Place::Interior(p) => surface.exact(p),
-            Place::Feature(c) => surface.features[c.chain as usize].exact(surface, c.s),
             // Fixed vertices of the carrier are exact as they stand.
-            Place::Fixed(p) => surface.carrier.xyz(p),
+            Place::Fixed(p) if p.bary.contains(&1.0) => surface.carrier.xyz(p),
+            Place::Interior(p) | Place::Fixed(p) => surface.exact(p),
+            Place::Feature(c) => surface.features[c.chain as usize].exact(surface, c.s),
             Place::Boundary(c) | Place::Corner(c) => {
                 surface.loops[c.chain as usize].exact(surface, c.s)
             }

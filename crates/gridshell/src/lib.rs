@@ -27,6 +27,7 @@
 pub mod balance;
 pub mod bubbles;
 pub mod degree;
+pub mod edit;
 pub mod error;
 pub mod grid;
 pub mod inspect;

@@ -1,5 +1,6 @@
 //! A grid from a file, on its surface again: to be measured, written in another format, or gone on with.
 
+use crate::edit::Editor;
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
 use crate::io::{self, Document, Opening};
@@ -156,6 +157,34 @@ fn with_features(mut grid: Grid, document: &Document) -> Result<Grid> {
         }
     }
     Ok(grid)
+}
+
+/// The document of a grid after editing: the grid as it is, numbered anew, and the edits behind those it had. Supports
+/// and anchors follow their nodes; where the whole boundary was supported, it is again.
+pub fn edited(document: &Document, editor: &Editor) -> Document {
+    let grid = editor.finished();
+    let now: Vec<u32> = editor.grid().mesh.vertices().collect();
+    let follow = |nodes: &[u32]| -> Vec<u32> {
+        nodes.iter().filter_map(|v| now.binary_search(v).ok()).map(|v| v as u32).collect()
+    };
+    let border: Vec<u32> = grid.mesh.vertices().filter(|&v| grid.mesh.is_boundary(v)).collect();
+    // A node that an edit made on a supported boundary stands on it too.
+    let held = follow(&document.supports);
+    let kept = border.iter().filter(|&&v| now[v as usize] < document.nodes.len() as u32);
+    let whole = !held.is_empty() && kept.clone().all(|v| held.binary_search(v).is_ok());
+    let supports = if whole { border } else { held };
+    let done = editor.history().map(|(edit, _)| serde_json::json!(edit));
+    let fresh = Document::of_grid(&document.name, &grid);
+    Document {
+        places: grid.places.iter().map(|&p| p.into()).collect(),
+        edits: document.edits.iter().cloned().chain(done).collect(),
+        anchors: follow(&document.anchors),
+        supports,
+        nodes: fresh.nodes,
+        panels: fresh.panels,
+        features: fresh.features,
+        ..document.clone()
+    }
 }
 
 /// Sampled as finely as for generating a grid of this edge length.

@@ -35,6 +35,7 @@ mod unit;
 mod values;
 mod vtu;
 mod weld;
+mod xlsx;
 
 pub use choice::Choice;
 pub use document::{Document, PlaceRecord, SCHEMA};
@@ -48,7 +49,7 @@ pub use unit::LengthUnit;
 pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
-use crate::surface::{Model, PolygonMesh, Source, builtin, sew, snap};
+use crate::surface::{Model, PolygonMesh, Source, builtin, sew};
 use serde::{Deserialize, Serialize};
 use soup::Soup;
 use std::path::Path;
@@ -57,6 +58,10 @@ use std::path::Path;
 const MESH_FORMATS: &str = "obj, ply, stl, off, gltf, glb, json";
 /// Extensions of all formats that hold a surface.
 const SURFACE_FORMATS: &str = "step, stp, 3dm, iges, igs, obj, ply, stl, off, gltf, glb, json";
+
+/// Roofs are between these sizes, metres.
+const LEAST_SIZE: f64 = 0.5;
+const MOST_SIZE: f64 = 1e4;
 
 /// How a file is to be opened.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -116,11 +121,22 @@ pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
         _ => Err(unknown(path, SURFACE_FORMATS)),
     }?;
     refuse_unit(path, opening)?;
+    let odd = odd_size(model.size());
     if let Model::Brep(brep) = &mut model {
-        snap(brep);
         sew(brep, opening.sew)?;
+        brep.notes.extend(odd);
     }
     Ok(model)
+}
+
+/// A word on a model that no one builds at its size: its file most likely states the wrong unit.
+fn odd_size(size: f64) -> Option<String> {
+    (!(LEAST_SIZE..=MOST_SIZE).contains(&size)).then(|| {
+        format!(
+            "the model is {size:.3e} m across by the unit that its file states; if it should not be, mend the unit \
+             in the program that wrote it"
+        )
+    })
 }
 
 #[cfg(feature = "3dm")]

@@ -3,27 +3,13 @@
 //! material and panes are stated assumptions of [`Structure`](crate::structure::Structure).
 
 use super::GridFile;
+use super::xlsx::Cell::{Blank, Made, Number, Text};
+use super::xlsx::{Cell, MOST_ROWS, Workbook};
 use crate::schedule::Schedule;
 use crate::structure::{Material, Shape, Structure};
-use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, Worksheet, XlsxError};
-
-/// Rows of a sheet, its header included.
-const MOST_ROWS: usize = 1_048_576;
 
 /// Name of the only cross-section.
 const SECTION: &str = "CS1";
-
-/// A cell.
-enum Cell<'a> {
-    /// Blank.
-    None,
-    Number(f64),
-    Text(&'a str),
-    Made(String),
-}
-use Cell::{Made, None as Blank, Number, Text};
-
-type Sheets<T> = Result<T, XlsxError>;
 
 /// The file's bytes; the error says why it cannot be.
 pub(super) fn encode(grid: &GridFile) -> Result<Vec<u8>, String> {
@@ -34,70 +20,42 @@ pub(super) fn encode(grid: &GridFile) -> Result<Vec<u8>, String> {
             MOST_ROWS - 1
         ));
     }
-    workbook(grid).map_err(|e| format!("the workbook cannot be made: {e}"))
-}
-
-fn workbook(grid: &GridFile) -> Sheets<Vec<u8>> {
-    let mut book = Workbook::new();
-    // The same grid gives the same bytes on any day.
-    let day = ExcelDateTime::from_ymd(2000, 1, 1)?;
-    book.set_properties(&DocProperties::new().set_creation_datetime(&day));
-    project(book.add_worksheet(), grid)?;
-    model(book.add_worksheet(), grid)?;
-    materials(book.add_worksheet(), grid)?;
-    sections(book.add_worksheet(), &grid.structure)?;
-    nodes(book.add_worksheet(), grid.schedule)?;
-    members(book.add_worksheet(), grid)?;
-    panels(book.add_worksheet(), grid)?;
-    supports(book.add_worksheet(), grid)?;
-    book.save_to_buffer()
+    let mut book = Workbook::default();
+    project(&mut book, grid);
+    model(&mut book, grid);
+    materials(&mut book, grid);
+    sections(&mut book, grid.structure);
+    nodes(&mut book, grid.schedule);
+    members(&mut book, grid);
+    panels(&mut book, grid);
+    supports(&mut book, grid);
+    book.pack().map_err(|e| format!("the workbook cannot be packed: {e}"))
 }
 
 /// Two columns: what, and its value.
-fn properties(sheet: &mut Worksheet, name: &str, rows: &[(&str, Cell)]) -> Sheets<()> {
-    sheet.set_name(name)?;
-    for (row, (what, value)) in rows.iter().enumerate() {
-        sheet.write_string(row as u32, 0, *what)?;
-        write(sheet, row as u32, 1, value)?;
+fn properties<const N: usize>(book: &mut Workbook, name: &'static str, rows: [(&str, Cell); N]) {
+    book.sheet(name);
+    for (what, value) in rows {
+        book.row(&[Text(what), value]);
     }
-    Ok(())
 }
 
-fn header(sheet: &mut Worksheet, name: &str, columns: &[&str]) -> Sheets<()> {
-    sheet.set_name(name)?;
-    for (column, what) in columns.iter().enumerate() {
-        sheet.write_string(0, column as u16, *what)?;
-    }
-    Ok(())
+fn header(book: &mut Workbook, name: &'static str, columns: &[&str]) {
+    book.sheet(name);
+    let cells: Vec<Cell> = columns.iter().map(|c| Text(c)).collect();
+    book.row(&cells);
 }
 
-fn row(sheet: &mut Worksheet, number: usize, cells: &[Cell]) -> Sheets<()> {
-    for (column, cell) in cells.iter().enumerate() {
-        write(sheet, number as u32 + 1, column as u16, cell)?;
-    }
-    Ok(())
-}
-
-fn write(sheet: &mut Worksheet, row: u32, column: u16, cell: &Cell) -> Sheets<()> {
-    match cell {
-        Cell::None => return Ok(()),
-        Number(x) => sheet.write_number(row, column, *x)?,
-        Text(text) => sheet.write_string(row, column, *text)?,
-        Made(text) => sheet.write_string(row, column, text)?,
-    };
-    Ok(())
-}
-
-fn project(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
+fn project(book: &mut Workbook, grid: &GridFile) {
     let rows = [
         ("Name", Made(grid.document.name.replace(char::is_control, " "))),
         ("Description", Made(grid.headline())),
         ("Status", Text("Draft")),
     ];
-    properties(sheet, "Project", &rows)
+    properties(book, "Project", rows);
 }
 
-fn model(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
+fn model(book: &mut Workbook, grid: &GridFile) {
     let rows = [
         ("Name", Made(grid.document.name.replace(char::is_control, " "))),
         ("Description", Made(grid.headline())),
@@ -111,10 +69,10 @@ fn model(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
         ("System of units", Text("Metric")),
         ("National code", Text("EC-Standard-EN")),
     ];
-    properties(sheet, "Model", &rows)
+    properties(book, "Model", rows);
 }
 
-fn materials(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
+fn materials(book: &mut Workbook, grid: &GridFile) {
     let columns = [
         "Name",
         "Type",
@@ -126,9 +84,9 @@ fn materials(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
         "Poisson Coefficient",
         "Thermal expansion [1/K]",
     ];
-    header(sheet, "StructuralMaterial", &columns)?;
+    header(book, "StructuralMaterial", &columns);
     let all: [&Material; 2] = [&grid.structure.material, &Structure::PANE];
-    for (k, m) in all.into_iter().enumerate() {
+    for m in all {
         let cells = [
             Text(m.name),
             Text(m.kind),
@@ -140,12 +98,11 @@ fn materials(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
             Number(m.poisson),
             Number(m.expansion),
         ];
-        row(sheet, k, &cells)?;
+        book.row(&cells);
     }
-    Ok(())
 }
 
-fn sections(sheet: &mut Worksheet, structure: &Structure) -> Sheets<()> {
+fn sections(book: &mut Workbook, structure: &Structure) {
     let columns = [
         "Name",
         "Material",
@@ -160,7 +117,7 @@ fn sections(sheet: &mut Worksheet, structure: &Structure) -> Sheets<()> {
         "Iz [m4]",
         "It [m4]",
     ];
-    header(sheet, "StructuralCrossSection", &columns)?;
+    header(book, "StructuralCrossSection", &columns);
     let (shape, parameters) = match structure.section.shape {
         Shape::Tube { height, width, wall } => {
             let [outer, inner] = Shape::radii(wall);
@@ -185,19 +142,18 @@ fn sections(sheet: &mut Worksheet, structure: &Structure) -> Sheets<()> {
         Number(p.iz),
         Number(p.torsion),
     ];
-    row(sheet, 0, &cells)
+    book.row(&cells);
 }
 
-fn nodes(sheet: &mut Worksheet, schedule: &Schedule) -> Sheets<()> {
+fn nodes(book: &mut Workbook, schedule: &Schedule) {
     let columns = ["Name", "Coordinate X [m]", "Coordinate Y [m]", "Coordinate Z [m]"];
-    header(sheet, "StructuralPointConnection", &columns)?;
+    header(book, "StructuralPointConnection", &columns);
     for (v, p) in schedule.nodes.xyz.iter().enumerate() {
-        row(sheet, v, &[Made(format!("N{v}")), Number(p.x), Number(p.y), Number(p.z)])?;
+        book.row(&[Made(format!("N{v}")), Number(p.x), Number(p.y), Number(p.z)]);
     }
-    Ok(())
 }
 
-fn members(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
+fn members(book: &mut Workbook, grid: &GridFile) {
     let columns = [
         "Name",
         "Type",
@@ -221,7 +177,7 @@ fn members(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
         "Layer",
         "Behaviour in analysis",
     ];
-    header(sheet, "StructuralCurveMember", &columns)?;
+    header(book, "StructuralCurveMember", &columns);
     let members = &grid.schedule.members;
     for (k, [a, b]) in members.ends.iter().enumerate() {
         let n = members.normal[k];
@@ -248,12 +204,11 @@ fn members(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
             Made(format!("group {}", members.group[k])),
             Text("Standard"),
         ];
-        row(sheet, k, &cells)?;
+        book.row(&cells);
     }
-    Ok(())
 }
 
-fn panels(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
+fn panels(book: &mut Workbook, grid: &GridFile) {
     let columns = [
         "Name",
         "Type",
@@ -274,7 +229,7 @@ fn panels(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
         "Shape",
         "Behavior in analysis",
     ];
-    header(sheet, "StructuralSurfaceMember", &columns)?;
+    header(book, "StructuralSurfaceMember", &columns);
     let Schedule { panels, nodes, .. } = grid.schedule;
     for (k, t) in panels.nodes.iter().enumerate() {
         let [a, b, c] = *t;
@@ -299,14 +254,13 @@ fn panels(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
             Text("Flat"),
             Text("Isotropic"),
         ];
-        row(sheet, k, &cells)?;
+        book.row(&cells);
     }
-    Ok(())
 }
 
-fn supports(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
+fn supports(book: &mut Workbook, grid: &GridFile) {
     let columns = ["Name", "Type", "Node", "ux", "uy", "uz", "fix", "fiy", "fiz"];
-    header(sheet, "StructuralPointSupport", &columns)?;
+    header(book, "StructuralPointSupport", &columns);
     for (k, v) in grid.document.supports.iter().enumerate() {
         let (held, free) = ("Rigid", "Free");
         let cells = [
@@ -320,7 +274,6 @@ fn supports(sheet: &mut Worksheet, grid: &GridFile) -> Sheets<()> {
             Text(free),
             Text(free),
         ];
-        row(sheet, k, &cells)?;
+        book.row(&cells);
     }
-    Ok(())
 }

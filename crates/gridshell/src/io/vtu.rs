@@ -3,6 +3,7 @@
 
 use super::GridFile;
 use crate::schedule::Schedule;
+use glam::DVec3;
 use std::fmt::{Display, Write};
 
 /// VTK's numbers for kinds of cells.
@@ -23,7 +24,7 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
     let _ =
         writeln!(out, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", nodes.xyz.len(), p + m);
     out.push_str("<Points>\n");
-    array(&mut out, "Float64", "Points", 3, nodes.xyz.iter().flat_map(|x| x.to_array()));
+    array(&mut out, "Float64", "Points", 3, nodes.xyz.iter().flat_map(DVec3::to_array));
     out.push_str("</Points>\n<Cells>\n");
     let corners = panels.nodes.iter().flatten().chain(members.ends.iter().flatten());
     array(&mut out, "Int64", "connectivity", 1, corners);
@@ -32,7 +33,7 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
     let kinds = std::iter::repeat_n(TRIANGLE, p).chain(std::iter::repeat_n(LINE, m));
     array(&mut out, "UInt8", "types", 1, kinds);
     out.push_str("</Cells>\n<PointData>\n");
-    array(&mut out, "Float64", "normal", 3, nodes.normal.iter().flat_map(|x| x.to_array()));
+    array(&mut out, "Float64", "normal", 3, nodes.normal.iter().flat_map(DVec3::to_array));
     array(&mut out, "Int64", "degree", 1, &nodes.degree);
     array(&mut out, "Int64", "adjusted_degree", 1, &nodes.adjusted_degree);
     array(&mut out, "Int64", "boundary", 1, nodes.boundary.iter().map(|&b| u8::from(b)));
@@ -51,7 +52,7 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
     let folds: Vec<f64> = members.fold_deg.iter().map(|f| f.unwrap_or(0.0)).collect();
     array(&mut out, "Float64", "fold_deg", 1, behind(&folds));
     array(&mut out, "Int64", "group", 1, panels.group.iter().chain(&members.group));
-    let normals = panels.normal.iter().chain(&members.normal).flat_map(|n| n.to_array());
+    let normals = panels.normal.iter().chain(&members.normal).flat_map(DVec3::to_array);
     array(&mut out, "Float64", "normal", 3, normals);
     out.push_str("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     out.into_bytes()
@@ -64,10 +65,13 @@ fn array<T: Display>(
     components: usize,
     values: impl IntoIterator<Item = T>,
 ) {
-    let _ = writeln!(
-        out,
-        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">"
-    );
+    // A lone number has no components: some readers would make a column of it.
+    let components = match components {
+        1 => String::new(),
+        n => format!(" NumberOfComponents=\"{n}\""),
+    };
+    let _ =
+        writeln!(out, "<DataArray type=\"{kind}\" Name=\"{name}\"{components} format=\"ascii\">");
     for value in values {
         let _ = write!(out, "{value} ");
     }

@@ -8,7 +8,9 @@
 
 mod check;
 mod edit;
+mod swap;
 mod topology;
 
 pub use edit::{Refusal, Undo};
+pub use swap::Vertex;
 pub use topology::{Along, Mesh, Ring};

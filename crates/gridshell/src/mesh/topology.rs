@@ -111,6 +111,12 @@ impl Mesh {
         Ok(())
     }
 
+    /// The edge `a`, `b` is part of no feature any more.
+    pub fn unmark_feature(&mut self, a: u32, b: u32) {
+        self.features[a as usize].retain(|v| *v != b);
+        self.features[b as usize].retain(|v| *v != a);
+    }
+
     /// Whether the edge `a`, `b` is part of a feature.
     pub fn is_feature_edge(&self, a: u32, b: u32) -> bool {
         self.features[a as usize].contains(&b)

@@ -147,7 +147,7 @@ fn tube(h: f64, b: f64, t: f64) -> (f64, f64, f64, f64) {
         let (hi, bi) = (h - 2.0 * t, b - 2.0 * t);
         b * h.powi(3) / 12.0 - bi * hi.powi(3) / 12.0 - 4.0 * corner(ro, h) + 4.0 * corner(ri, hi)
     };
-    let mid = (ro + ri) / 2.0;
+    let mid = f64::midpoint(ro, ri);
     let around = 2.0 * ((b - t) + (h - t)) - 2.0 * mid * (4.0 - PI);
     let within = (b - t) * (h - t) - mid * mid * (4.0 - PI);
     let torsion = t.powi(3) * around / 3.0 + 4.0 * within * within * t / around;

@@ -154,6 +154,20 @@ impl Chain {
         ends.into_iter().fold(foot, nearer)
     }
 
+    /// The arc length of the point of the carrier's polyline that is nearest to `xyz`, and how far off it is, metres.
+    pub fn nearest(&self, carrier: &Carrier, xyz: DVec3) -> (f64, f64) {
+        let n = self.vertices.len();
+        let on = |k: usize| {
+            let [a, b] = [k, k + 1].map(|k| carrier.points[self.vertices[k % n] as usize]);
+            let along = b - a;
+            let f = (xyz - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
+            let f = f.clamp(0.0, 1.0);
+            (self.arc[k] + (self.arc[k + 1] - self.arc[k]) * f, (a + along * f).distance(xyz))
+        };
+        let all = (0..self.segments.len()).map(on);
+        all.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0.0, f64::INFINITY))
+    }
+
     /// Mark as corners the vertices where the chain turns by more than `corner_angle` radians, between
     /// the exact tangents where segments have curves and between the segments themselves elsewhere. A
     /// chain with corners is turned to begin at one.

@@ -71,12 +71,17 @@ impl Surface {
         if anchors.is_empty() && self.tracks.features().next().is_none() {
             return Ok(notes);
         }
-        let Lines { chains, fixed } = self.lines(&anchors, wanted.corner_angle);
+        self.gather(&anchors, wanted.corner_angle);
+        notes.extend(self.near_features(wanted.edge_length));
+        Ok(notes)
+    }
+
+    /// Gather the feature edges into chains, and enter these anchors and the chains' ends among what is fixed.
+    pub(super) fn gather(&mut self, anchors: &[u32], corner_angle: f64) {
+        let Lines { chains, fixed } = self.lines(anchors, corner_angle);
         self.wall_up();
         self.features = chains;
         self.fix_vertices(&fixed);
-        notes.extend(self.near_features(wanted.edge_length));
-        Ok(notes)
     }
 
     /// Mark as features the carrier edges inside where the exact surface turns by more than `angle`. Where the

@@ -16,6 +16,7 @@ pub mod curve;
 mod cut;
 pub mod direction;
 pub(crate) mod ear;
+mod extend;
 pub mod facets;
 pub mod feature;
 mod fill;
@@ -41,7 +42,6 @@ pub mod section;
 pub mod sew;
 pub mod shape;
 mod size;
-mod snap;
 pub mod source;
 mod stretch;
 pub mod tessellate;
@@ -62,7 +62,6 @@ pub use offset::OffsetSurface;
 pub use ruler::Ruler;
 pub use sew::{Sewing, sew};
 pub use shape::Shape;
-pub use snap::snap;
 pub use source::{Object, Source, Unit};
 pub use tessellate::tessellate;
 
@@ -72,6 +71,7 @@ use glam::DVec3;
 use track::Tracks;
 
 /// A design surface, ready to carry a grid.
+#[derive(Clone)]
 pub struct Surface {
     /// Built-in name or file stem.
     pub name: String,

@@ -13,6 +13,7 @@ mod panels;
 mod quality;
 
 pub use bridging::count as bridging_members;
+pub use panels::is_folded;
 pub use quality::{Border, Degrees, EdgeLength, Irregular, IrregularNode, Lengths, Quality, Shape};
 
 use crate::degree::{REGULAR, adjusted_degree, boundary_angle, virtual_degree, weight};

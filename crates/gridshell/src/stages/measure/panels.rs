@@ -43,7 +43,7 @@ pub(super) fn measure(grid: &Grid, normals: &[DVec3]) -> Panels {
             at_border += 1;
             panels.border_shape_mean += q;
         }
-        panels.folded += usize::from(is_folded(grid, normals, t));
+        panels.folded += usize::from(is_folded(grid, |v| normals[v as usize], t));
     }
     panels.shape.mean /= panels.count.max(1) as f64;
     panels.border_shape_mean =
@@ -52,9 +52,10 @@ pub(super) fn measure(grid: &Grid, normals: &[DVec3]) -> Panels {
 }
 
 /// Whether the panel faces against the surface, or lies folded over a neighbour though the surface does
-/// not. Of two such neighbours only the one that agrees less with the surface counts.
-fn is_folded(grid: &Grid, normals: &[DVec3], t: [u32; 3]) -> bool {
-    let (panel, surface) = (panel_normal(grid, t), surface_normal(normals, t));
+/// not. Of two such neighbours only the one that agrees less with the surface counts. `normal` gives the surface's unit normal at a node.
+pub fn is_folded(grid: &Grid, normal: impl Fn(u32) -> DVec3, t: [u32; 3]) -> bool {
+    let surface_normal = |t: [u32; 3]| t.map(&normal).iter().sum::<DVec3>().normalize_or_zero();
+    let (panel, surface) = (panel_normal(grid, t), surface_normal(t));
     let agreement = panel.dot(surface);
     if agreement < 0.0 {
         return true;
@@ -67,9 +68,9 @@ fn is_folded(grid: &Grid, normals: &[DVec3], t: [u32; 3]) -> bool {
             return false;
         }
         let other = panel_normal(grid, [b, a, c]);
-        let other_surface = surface_normal(normals, [b, a, c]);
+        let other_surface = surface_normal([b, a, c]);
         // Away from the shared edge: that may run along a crease, where the surface turns as well.
-        let turns = normals[t[(k + 2) % 3] as usize].dot(normals[c as usize]) <= 0.0;
+        let turns = normal(t[(k + 2) % 3]).dot(normal(c)) <= 0.0;
         panel.dot(other) < 0.0 && !turns && agreement < other.dot(other_surface)
     })
 }
@@ -77,8 +78,4 @@ fn is_folded(grid: &Grid, normals: &[DVec3], t: [u32; 3]) -> bool {
 fn panel_normal(grid: &Grid, t: [u32; 3]) -> DVec3 {
     let p = t.map(|v| grid.xyz[v as usize]);
     (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero()
-}
-
-fn surface_normal(normals: &[DVec3], t: [u32; 3]) -> DVec3 {
-    t.iter().map(|&v| normals[v as usize]).sum::<DVec3>().normalize_or_zero()
 }

@@ -198,6 +198,9 @@ impl Local {
 
 /// Unit directions in which a node may move.
 fn axes(state: &State, v: u32) -> SmallVec<[DVec3; 2]> {
+    if state.grid.mesh.is_pinned(v) {
+        return SmallVec::new();
+    }
     match &state.grid.places[v as usize] {
         Place::Interior(p) => {
             let (s, t) = state.surface.carrier.normal(p).any_orthonormal_pair();

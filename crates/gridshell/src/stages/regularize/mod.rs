@@ -10,7 +10,12 @@ use crate::grid::Grid;
 use crate::job::Job;
 use crate::recipe::{Recipe, RegularizeMethod};
 use crate::surface::Surface;
-use state::State;
+
+pub(crate) use local::{Aim, Local};
+pub(crate) use paper::path as drift_path;
+pub(crate) use polish::heal;
+pub(crate) use search::{Operation, estimate};
+pub(crate) use state::{Few, State};
 
 /// What regularizing did.
 #[derive(Clone, Copy, Debug, Default)]

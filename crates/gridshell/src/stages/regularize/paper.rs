@@ -199,7 +199,7 @@ fn drift(
 
 /// The flips that carry the pair to one side until its surroundings are no longer regular; None when it
 /// cannot even start. Tried on the mesh and taken back.
-fn path(state: &mut State, black: u32, white: u32, side: u32) -> Option<Vec<(u32, u32)>> {
+pub fn path(state: &mut State, black: u32, white: u32, side: u32) -> Option<Vec<(u32, u32)>> {
     const LONGEST: usize = 200;
     let (mut white, mut side) = (white, side);
     let mut behind = black;

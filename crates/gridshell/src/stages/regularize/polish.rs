@@ -30,6 +30,8 @@ const ROUNDS: usize = 6;
 const TEMPERATURE: [f64; 2] = [0.4, 0.05];
 /// Irregular nodes that trials are made for at least.
 const LEAST_PLACES: usize = 40;
+/// Trials of a healing at most: a second or two.
+const MOST_HEALS: usize = 3000;
 /// What operations may at best win by lengths and lines, in the same units.
 const HOPE: f64 = 1.0;
 
@@ -69,6 +71,39 @@ pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job:
     report
 }
 
+/// Heal the irregular nodes for which `inside` holds by so many trials each: operations only touch nodes for which it
+/// holds, or new ones. The grid is left as it was where nothing better was found; gives whether it was.
+pub fn heal(
+    state: &mut State,
+    recipe: &Recipe,
+    inside: &dyn Fn(u32) -> bool,
+    trials: usize,
+    seed: u64,
+    job: &Job,
+) -> bool {
+    let mut polish = Polish::new(state, recipe, seed);
+    polish.inside = Some(inside);
+    polish.count_all();
+    let start = polish.merit;
+    polish.best.0 = start;
+    let trials = trials.saturating_mul(polish.places().len()).min(MOST_HEALS);
+    let mut made = 0;
+    for _ in 0..20 * trials {
+        if made >= trials || polish.places().is_empty() || job.stopped() {
+            break;
+        }
+        let [hot, cold] = TEMPERATURE;
+        polish.temperature = hot * exp(ln(cold / hot) * made as f64 / trials as f64);
+        made += usize::from(polish.trial(&mut Report::default()));
+        if polish.merit > polish.best.0 {
+            polish.best = (polish.merit, polish.state.grid.clone());
+        }
+    }
+    let (merit, grid) = std::mem::replace(&mut polish.best, (0.0, polish.state.grid.clone()));
+    polish.state.replace(grid);
+    merit > start
+}
+
 struct Polish<'a, 'b> {
     state: &'a mut State<'b>,
     rng: fastrand::Rng,
@@ -82,6 +117,8 @@ struct Polish<'a, 'b> {
     temperature: f64,
     unit: f64,
     best: (f64, crate::grid::Grid),
+    /// Which nodes operations may touch; None: all.
+    inside: Option<&'a dyn Fn(u32) -> bool>,
 }
 
 impl<'a, 'b> Polish<'a, 'b> {
@@ -97,6 +134,7 @@ impl<'a, 'b> Polish<'a, 'b> {
             temperature: 0.0,
             unit: 0.0,
             best: (f64::NEG_INFINITY, state.grid.clone()),
+            inside: None,
             state,
         }
     }
@@ -111,6 +149,11 @@ impl<'a, 'b> Polish<'a, 'b> {
             accuracy: 0.02,
         };
         balance(self.state.surface, &mut self.state.grid, &options, &Job::default());
+        self.count_all();
+    }
+
+    /// Count everything anew.
+    fn count_all(&mut self) {
         self.state.refresh_all();
         let state = &*self.state;
         self.total = Sums::whole(&state.grid, state.surface, state.length, state.lambda);
@@ -165,12 +208,24 @@ impl<'a, 'b> Polish<'a, 'b> {
         plan.touched = self.state.touched();
         let idle = self.state.is_idle();
         self.state.roll_back();
-        drawn.filter(|()| !idle).map(|()| plan)
+        let within = plan.touched.iter().all(|&v| self.is_inside(v));
+        drawn.filter(|()| !idle && within).map(|()| plan)
+    }
+
+    /// The irregular nodes that operations may begin at.
+    fn places(&self) -> Few {
+        self.state.irregular().iter().copied().filter(|&v| self.is_inside(v)).collect()
+    }
+
+    fn is_inside(&self, v: u32) -> bool {
+        self.inside.is_none_or(|inside| inside(v))
     }
 
     fn draw(&mut self, plan: &mut Plan) -> Option<()> {
-        let irregular = self.state.irregular();
-        let mut v = irregular[self.rng.usize(..irregular.len())];
+        let mut v = match self.inside {
+            None => *self.rng.choice(self.state.irregular())?,
+            Some(_) => *self.rng.choice(&self.places())?,
+        };
         for _ in 0..[1, 1, 2, 2, 3][self.rng.usize(..5)] {
             let (operation, a, b) = draw_at(self.state, v, &mut self.rng)?;
             plan.make(self.state, operation, a, b)?;

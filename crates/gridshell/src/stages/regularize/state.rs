@@ -183,6 +183,7 @@ impl<'a> State<'a> {
             |v: u32| (mesh.is_pinned(v), mesh.is_boundary(v), !mesh.along_features(v).is_empty());
         let (keep, gone) = if rank(b) > rank(a) { (b, a) } else { (a, b) };
         let place = match (self.grid.places[keep as usize], mesh.is_boundary_edge(a, b)) {
+            (pinned, _) if mesh.is_pinned(keep) => pinned,
             (Place::Interior(_), _) => self.middle_on_surface(keep, gone),
             (Place::Boundary(_), true) => self.middle_on_loop(keep, gone),
             (Place::Feature(_), _) if mesh.is_feature_edge(a, b) => {

@@ -1,0 +1,111 @@
+//! `gridshell edit`: replay a log of edits on a grid.
+
+use crate::Outcome;
+use crate::args::Edit;
+use crate::failure::Failure;
+use crate::{handover, recipe, say};
+use gridshell::edit::{Editor, Figures, Log};
+use gridshell::io::GridFile;
+use gridshell::reopen::{self, Opened};
+use gridshell::schedule::{Schedule, Tolerances};
+use serde::Serialize;
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A larger file is not read as a log: a million edits take less.
+const LARGEST_LOG: u64 = 100_000_000;
+
+/// The document of `--json`.
+#[derive(Serialize)]
+struct Document {
+    schema: &'static str,
+    version: &'static str,
+    /// The figures before the first edit.
+    before: Figures,
+    /// Each edit, with the figures after it.
+    edits: Vec<Step>,
+    /// Suggested edits, the best first, with the figures after each.
+    suggested: Vec<Step>,
+}
+
+#[derive(Serialize)]
+struct Step {
+    edit: gridshell::edit::Edit,
+    after: Figures,
+}
+
+pub fn run(args: &Edit) -> Result<Outcome, Failure> {
+    args.output.iter().try_for_each(|path| handover::check_output(path))?;
+    let structure = handover::structure(&args.handover)?;
+    let supports = handover::supports(&args.handover)?;
+    let log = args.log.as_deref().map(read_log).transpose()?;
+    let opening = args.reading.opening();
+    let mut opened =
+        reopen::open(&args.grid, args.surface.as_deref(), &opening).map_err(Failure::of_input)?;
+    recipe::tolerances(&mut opened.recipe, &args.alike);
+    let Opened { document, grid, surface, edge_length, recipe, notes, .. } = opened;
+    let tolerances = Tolerances::from(&recipe.measure);
+    let mut editor = Editor::new(Arc::new(surface), grid, recipe, edge_length);
+    let before = editor.figures();
+    if let (Some(log), Some(path)) = (log, &args.log) {
+        editor.replay(&log).map_err(|e| Failure::input(path, e))?;
+    }
+    let steps = |edits: Vec<(gridshell::edit::Edit, Figures)>| -> Vec<Step> {
+        edits.into_iter().map(|(edit, after)| Step { edit, after }).collect()
+    };
+    let edits = steps(editor.history().map(|(e, f)| (e.clone(), f.after)).collect());
+    let suggested =
+        steps(editor.suggest(args.suggest).into_iter().map(|(e, f)| (e, f.after)).collect());
+    let grid = editor.finished();
+    let schedule = Schedule::new(&grid, editor.surface(), &tolerances);
+    let mut document = reopen::edited(&document, &editor);
+    if let Some(supports) = supports {
+        document.supports = supports.nodes(&grid, editor.surface())?;
+    }
+    document.panels.clone_from(&schedule.panels.nodes);
+    let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
+    let wrote = handover::write_all(&args.output, &file)?;
+    let (schema, version) = ("gridshell.edit/1", env!("CARGO_PKG_VERSION"));
+    if args.json {
+        say::json(&Document { schema, version, before, edits, suggested })?;
+        wrote.lines().for_each(say::note);
+    } else {
+        say::result(&table(&before, &edits, &suggested, &wrote))?;
+    }
+    for n in &notes {
+        say::note(&format!("note: {n}"));
+    }
+    Ok(Outcome::Done)
+}
+
+fn read_log(path: &Path) -> Result<Log, Failure> {
+    let size = fs::metadata(path).map_err(|e| Failure::input(path, e))?.len();
+    if size > LARGEST_LOG {
+        return Err(Failure::input(path, format!("{size} bytes are no log of edits")));
+    }
+    let text = fs::read_to_string(path).map_err(|e| Failure::input(path, e))?;
+    Log::from_json(&text).map_err(|e| Failure::input(path, e))
+}
+
+/// What was done and what is suggested, a line each.
+fn table(before: &Figures, edits: &[Step], suggested: &[Step], wrote: &str) -> String {
+    let mut text = format!("{:44} {:>9} {:>8} {:>8} {:>9}\n", "", "R", "mu", "Q", "irregular");
+    let mut line = |what: &str, f: &Figures| {
+        let q = f.fluency.map_or("inf".to_owned(), |q| format!("{q:.3}"));
+        let (r, mu, irregular) = (f.residual, f.mu, f.irregular);
+        let _ = writeln!(text, "{what:44} {r:9.2} {mu:8.4} {q:>8} {irregular:9}");
+    };
+    line("before", before);
+    for (k, step) in edits.iter().enumerate() {
+        line(&format!("{}. {}", k + 1, step.edit), &step.after);
+    }
+    for step in suggested {
+        line(&format!("suggested: {}", step.edit), &step.after);
+    }
+    if !wrote.is_empty() {
+        let _ = writeln!(text, "{wrote}");
+    }
+    text
+}
