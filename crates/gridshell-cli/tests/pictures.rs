@@ -73,7 +73,7 @@ fn every_element_gets_its_number() {
 
 #[test]
 fn a_scale_is_true() {
-    // A hexagon of side 1 is 2 m wide: at 1:5 that is 400 mm.
+    // A hexagon of side 1 is 2 m wide: at 1:4 that is 500 mm.
     let folder = tempfile::tempdir().expect("a folder for the test");
     let h = 0.75f64.sqrt();
     let mut obj = "v 0 0 0\n".to_owned();
@@ -86,7 +86,7 @@ fn a_scale_is_true() {
     fs::write(folder.path().join("six.obj"), obj).expect("written");
     done(folder.path(), "draw six.obj --color none -o six.svg");
     let svg = text(&folder, "six.svg");
-    assert!(svg.contains(">1:5<"), "the scale is told");
+    assert!(svg.contains(">1:4<"), "the scale is told");
     let lines = svg.lines().filter(|l| l.starts_with("<polyline"));
     let ends = |line: &str| -> Option<[[f64; 2]; 2]> {
         let points = line.split("points=\"").nth(1)?.split('"').next()?;
@@ -94,7 +94,7 @@ fn a_scale_is_true() {
         (numbers.len() == 4).then(|| [[numbers[0], numbers[1]], [numbers[2], numbers[3]]])
     };
     let long = |[a, b]: [[f64; 2]; 2]| ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt();
-    let members = lines.filter_map(ends).filter(|&m| (long(m) - 200.0).abs() < 0.02).count();
+    let members = lines.filter_map(ends).filter(|&m| (long(m) - 250.0).abs() < 0.02).count();
     assert_eq!(members, 12);
 }
 

@@ -37,7 +37,7 @@ pub enum Mark {
 pub struct Text {
     /// The place of its anchor, at half the height of its capitals.
     pub at: [f64; 2],
-    pub text: String,
+    pub words: String,
     /// Height of the type; capitals are seven tenths of it.
     pub size: f64,
     pub rgb: Rgb,
@@ -82,8 +82,8 @@ impl Drawing {
     }
 
     pub fn text(&mut self, at: [f64; 2], text: &str, size: f64, rgb: Rgb, anchor: Anchor) {
-        let text = text.to_owned();
-        self.marks.push(Mark::Text(Text { at, text, size, rgb, anchor, turn_deg: 0.0 }));
+        let words = text.to_owned();
+        self.marks.push(Mark::Text(Text { at, words, size, rgb, anchor, turn_deg: 0.0 }));
     }
 
     /// A filled circle with a ring.

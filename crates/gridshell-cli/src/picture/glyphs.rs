@@ -28,8 +28,8 @@ pub fn length(text: &str, size: f64) -> f64 {
 pub fn start(text: &Text) -> f64 {
     match text.anchor {
         Anchor::Start => 0.0,
-        Anchor::Middle => -0.5 * length(&text.text, text.size),
-        Anchor::End => -length(&text.text, text.size),
+        Anchor::Middle => -0.5 * length(&text.words, text.size),
+        Anchor::End => -length(&text.words, text.size),
     }
 }
 
@@ -40,7 +40,7 @@ pub fn strokes(text: &Text) -> Vec<Vec<[f64; 2]>> {
     let step = STEP * text.size;
     let mut all = Vec::new();
     let mut along = start(text);
-    for c in text.text.chars() {
+    for c in text.words.chars() {
         let own: Vec<Vec<[f64; 2]>> = character(c).split(';').map(points).collect();
         let xs = || own.iter().flatten().map(|p| p[0]);
         let wide = xs().fold(0.0, f64::max) - xs().fold(f64::INFINITY, f64::min).min(9.0);
@@ -117,14 +117,14 @@ mod tests {
     use super::*;
 
     fn text(text: &str, anchor: Anchor, turn_deg: f64) -> Text {
-        Text { at: [10.0, 20.0], text: text.into(), size: 10.0, rgb: [0.0; 3], anchor, turn_deg }
+        Text { at: [10.0, 20.0], words: text.into(), size: 10.0, rgb: [0.0; 3], anchor, turn_deg }
     }
 
     #[test]
     fn a_text_stays_within_its_length_and_about_its_place() {
         for (anchor, from) in [(Anchor::Start, 10.0), (Anchor::Middle, 0.0), (Anchor::End, -10.0)] {
             let t = text("ABCDEfgh 1234", anchor, 0.0);
-            let long = length(&t.text, t.size);
+            let long = length(&t.words, t.size);
             let from = match anchor {
                 Anchor::Start => from,
                 Anchor::Middle => 10.0 - long / 2.0,

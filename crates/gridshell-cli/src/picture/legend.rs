@@ -33,7 +33,7 @@ pub fn colours(
     let long = super::glyphs::length(scale.title, 1.15 * size);
     let fit = 1.15 * size * (width / long).min(1.0);
     drawing.text([x, top], scale.title, fit, INK, Anchor::Start);
-    let ground = top + (1.5 + BARS) * size;
+    let ground = top + (2.8 + BARS) * size;
     let step = width / scale.steps.len() as f64;
     let most = scale.counts.iter().copied().max().unwrap_or(0).max(1) as f64;
     for (k, (rgb, &count)) in scale.steps.iter().zip(&scale.counts).enumerate() {
@@ -98,7 +98,7 @@ pub fn scale_bar(drawing: &mut Drawing, [x, y]: [f64; 2], scale: f64, size: f64,
     drawing.rectangle([x, y], [4.0 * step, high], INK);
     let line = 0.06 * size;
     for k in 0..5 {
-        let left = x + k as f64 * step;
+        let left = x + f64::from(k) * step;
         if k < 4 && k % 2 == 1 {
             drawing.rectangle(
                 [left + line, y + line],
@@ -107,7 +107,7 @@ pub fn scale_bar(drawing: &mut Drawing, [x, y]: [f64; 2], scale: f64, size: f64,
             );
         }
         let unit = if k == 4 { " m" } else { "" };
-        let text = format!("{}{unit}", round(k as f64 * length));
+        let text = format!("{}{unit}", round(f64::from(k) * length));
         drawing.text([left, y - 0.9 * size], &text, size, INK, Anchor::Middle);
     }
 }

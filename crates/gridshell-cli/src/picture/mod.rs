@@ -29,7 +29,7 @@ use std::path::Path;
 
 /// The legend of a scale by itself, as SVG.
 pub fn legend_of(scale: &colour::Scale) -> String {
-    let mut drawing = Drawing::new([280.0, 160.0], Unit::Pixel, scale.title.to_owned());
+    let mut drawing = Drawing::new([280.0, 172.0], Unit::Pixel, scale.title.to_owned());
     legend::colours(&mut drawing, scale, [6.0, 10.0], 268.0, 12.0);
     svg::encode(&drawing)
 }

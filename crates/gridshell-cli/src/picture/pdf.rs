@@ -65,7 +65,7 @@ fn marks(drawing: &Drawing, scale: f64) -> Vec<u8> {
                 page.begin_text().set_font(FONT, text.size as f32).set_fill_rgb(r, g, b);
                 let [a, b, c, d] = [cos, -sin, -sin, -cos].map(|x| x as f32);
                 page.set_text_matrix([a, b, c, d, at[0] as f32, at[1] as f32]);
-                page.show(Str(&latin(&text.text))).end_text();
+                page.show(Str(&latin(&text.words))).end_text();
             }
         }
     }

@@ -59,6 +59,19 @@ impl Style {
             label: (0.16 * member_length).clamp(0.1 * type_size, type_size),
         }
     }
+
+    /// Finer lines and smaller type, so that these labels can be read.
+    pub fn beside(self, labels: &[Labels]) -> Style {
+        match labels.len() {
+            0 => self,
+            1 => Style { member: 0.45 * self.member, node: 0.7 * self.node, ..self },
+            _ => Style {
+                member: 0.3 * self.member,
+                node: 0.55 * self.node,
+                label: 0.78 * self.label,
+            },
+        }
+    }
 }
 
 /// Places of the nodes as the camera sees them, and all elements from the farthest to the nearest.
@@ -116,7 +129,7 @@ pub fn draw(
             }
             Item::Node(v) => {
                 if supported[v] {
-                    support(places[v], 0.8 * style.node, drawing);
+                    support(places[v], 1.1 * style.node, drawing);
                 }
                 mark(subject, colours, v, places[v], style.node, drawing);
             }
@@ -169,10 +182,10 @@ pub fn label(
     let schedule = subject.schedule;
     let place = |v: u32| frame.place(camera.see(schedule.nodes.xyz[v as usize]));
     let size = style.label;
-    let mut write = |at: [f64; 2], text: String, rgb: Rgb, turn_deg: f64| {
+    let mut write = |at: [f64; 2], words: String, rgb: Rgb, turn_deg: f64| {
         drawing.marks.push(Mark::Text(Text {
             at,
-            text,
+            words,
             size,
             rgb,
             anchor: Anchor::Middle,

@@ -1,7 +1,7 @@
 //! Sheets to scale: views on paper of a standard size, with legend, figures, title and scale bar. Millimetres.
 
 use super::colour::{Coloring, Colours};
-use super::drawing::{Drawing, Unit};
+use super::drawing::{Anchor, Drawing, Unit};
 use super::frame::{Extent, Frame};
 use super::scene::{self, INK, Labels, Style};
 use super::view::{Camera, View};
@@ -54,8 +54,9 @@ const THICK: f64 = 0.5;
 const THIN: f64 = 0.18;
 /// What is added to a view for the width of its marks, over the size of type.
 const ROOM_FOR_MARKS: f64 = 1.5;
-/// Denominators of scales below ten, in ascending order, to be had times powers of ten.
-const SCALES: [f64; 4] = [1.0, 2.0, 2.5, 5.0];
+/// Denominators that rulers have, ascending, to be had times powers of ten; and those of enlargements.
+const SCALES: [f64; 7] = [1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 7.5];
+const ENLARGED: [f64; 3] = [1.0, 2.0, 5.0];
 
 impl Paper {
     /// Width and height, millimetres.
@@ -118,16 +119,17 @@ pub fn sheet(subject: &Subject, wish: &Wish) -> Drawing {
     let cells = cells(&views, at, room, f);
     let scale = 1000.0 / denominator(&views, &cells);
     let colours = Colours::new(wish.coloring, subject);
-    let style = Style::of(scale * subject.schedule.figures.length.spread.mean, TYPE * f);
+    let member = scale * subject.schedule.figures.length.spread.mean;
+    let style = Style::of(member, TYPE * f).beside(wish.labels);
     for ((view, camera, extent), cell) in views.iter().zip(&cells) {
         let frame = Frame::centred(extent, scale, cell.at, cell.room);
         scene::draw(subject, &colours, *view, camera, &frame, &style, &mut drawing);
         scene::label(subject, wish.labels, camera, &frame, &style, &mut drawing);
         if views.len() > 1 {
-            let below =
-                [cell.at[0] + 0.5 * cell.room[0], cell.at[1] + cell.room[1] + 1.2 * TYPE * f];
+            let foot = cell.at[1] + 0.5 * (cell.room[1] + scale * extent.size()[1]);
+            let below = [cell.at[0] + 0.5 * cell.room[0], foot + 3.0 * TYPE * f];
             let name = capital(view.name());
-            drawing.text(below, &name, TYPE * f, INK, super::drawing::Anchor::Middle);
+            drawing.text(below, &name, TYPE * f, INK, Anchor::Middle);
         }
     }
     let ground = paper[1] - (MARGIN + 0.45 * FOOT) * f;
@@ -205,9 +207,9 @@ fn denominator(views: &[(View, Camera, Extent)], cells: &[Cell]) -> f64 {
 
 /// The smallest standard denominator that is no less than `needed`.
 fn standard(needed: f64) -> f64 {
-    let powers = (-6..9).map(|k| 10f64.powi(k));
-    let all = powers.flat_map(|p| SCALES.map(|s| s * p));
-    all.into_iter().find(|&d| d >= needed).unwrap_or(1e9)
+    let enlarged = (-6..0).flat_map(|k| ENLARGED.map(|s| s * 10f64.powi(k)));
+    let mut all = enlarged.chain((0..9).flat_map(|k| SCALES.map(|s| s * 10f64.powi(k))));
+    all.find(|&d| d >= needed).unwrap_or(1e9)
 }
 
 /// A scale as it is written: `1:200`, `5:1`.
@@ -251,7 +253,7 @@ fn column(
 }
 
 fn heading(drawing: &mut Drawing, text: &str, at: [f64; 2], width: f64, f: f64) {
-    drawing.text(at, text, 1.15 * TYPE * f, INK, super::drawing::Anchor::Start);
+    drawing.text(at, text, 1.15 * TYPE * f, INK, Anchor::Start);
     let y = at[1] + 0.5 * LINE * f;
     drawing.line(vec![[at[0], y], [at[0] + width, y]], THIN * f, INK);
 }
@@ -278,16 +280,16 @@ fn title(
         ("Made by", format!("gridshell {}", subject.document.version)),
     ];
     let foot = drawing.size[1] - MARGIN * f;
-    let top = foot - (rows.len() as f64 * LINE + 2.0 * TITLE + 12.0) * f;
+    let top = foot - (rows.len() as f64 * LINE + 2.0 * TITLE + 16.0) * f;
     let column = [left - PAD * f, left + width + PAD * f];
     drawing.line(vec![[column[0], top], [column[1], top]], THICK * f, INK);
     // The name may be long: it is set smaller, not cut.
     let long = glyphs::length(name, TITLE * f);
     let size = TITLE * f * (width / long).min(1.0);
-    drawing.text([left, top + 8.0 * f], name, size, INK, super::drawing::Anchor::Start);
+    drawing.text([left, top + 8.0 * f], name, size, INK, Anchor::Start);
     let what = format!("Triangular grid, {}", wish.sheet.name().to_lowercase());
-    drawing.text([left, top + 17.0 * f], &what, 1.2 * TYPE * f, INK, super::drawing::Anchor::Start);
-    let mut y = foot - (rows.len() as f64 - 0.5) * LINE * f;
+    drawing.text([left, top + 17.0 * f], &what, 1.2 * TYPE * f, INK, Anchor::Start);
+    let mut y = foot - ((rows.len() as f64 - 0.5) * LINE + 4.0) * f;
     for (name, value) in &rows {
         legend::row(drawing, (name, value), [left, y], width, TYPE * f);
         y += LINE * f;
@@ -300,8 +302,15 @@ mod tests {
 
     #[test]
     fn scales_are_those_on_rulers() {
-        let cases =
-            [(0.3, 0.5), (1.0, 1.0), (47.0, 50.0), (101.0, 200.0), (201.0, 250.0), (999.0, 1000.0)];
+        let cases = [
+            (0.3, 0.5),
+            (3.3, 4.0),
+            (1.0, 1.0),
+            (47.0, 50.0),
+            (101.0, 200.0),
+            (201.0, 250.0),
+            (999.0, 1000.0),
+        ];
         for (needed, wanted) in cases {
             assert!((standard(needed) / wanted - 1.0).abs() < 1e-12, "{needed}");
         }

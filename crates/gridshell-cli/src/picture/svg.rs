@@ -52,7 +52,7 @@ fn written(text: &Text) -> String {
         "<text x=\"{x:.2}\" y=\"{:.2}\"{turn} font-size=\"{size:.3}\" text-anchor=\"{anchor}\" fill=\"{}\">{}</text>",
         y + GROUND * size,
         hex(rgb),
-        escaped(&text.text)
+        escaped(&text.words)
     )
 }
 

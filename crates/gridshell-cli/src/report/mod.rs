@@ -131,6 +131,9 @@ fn warnings(run: Option<&Run>) -> String {
     if all.is_empty() {
         return String::new();
     }
-    let items: String = all.iter().map(|w| format!("<li>{}</li>", escaped(w))).collect();
-    format!("<section class=\"warnings\"><h2>What to know</h2><ul>{items}</ul></section>")
+    let items: Vec<String> = all.iter().map(|w| format!("<li>{}</li>", escaped(w))).collect();
+    format!(
+        "<section class=\"warnings\"><h2>What to know</h2><ul>{}</ul></section>",
+        items.concat()
+    )
 }

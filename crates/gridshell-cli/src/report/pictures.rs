@@ -40,7 +40,7 @@ pub fn picture(subject: &Subject, colored: &[Colored], view: View) -> String {
     let places: Vec<[i64; 2]> =
         seen.iter().map(|&s| frame.place(s).map(|x| x.round() as i64)).collect();
     let member = scale * schedule.figures.length.spread.mean;
-    let width = (0.05 * member).clamp(4.0, 14.0);
+    let width = (0.09 * member).clamp(5.0, 18.0);
     let radius = (0.13 * member).clamp(8.0, 40.0);
     let mut out = format!(
         "<svg class=\"grid\" viewBox=\"0 0 {} {}\" style=\"--w:{width:.1}\" stroke-linejoin=\"round\" \

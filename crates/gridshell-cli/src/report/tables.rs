@@ -143,6 +143,7 @@ fn cut(count: usize) -> String {
 }
 
 fn tr(cell: &str, cells: &[String]) -> String {
-    let cells: String = cells.iter().map(|c| format!("<{cell}>{}</{cell}>", escaped(c))).collect();
-    format!("<tr>{cells}</tr>")
+    let cells: Vec<String> =
+        cells.iter().map(|c| format!("<{cell}>{}</{cell}>", escaped(c))).collect();
+    format!("<tr>{}</tr>", cells.concat())
 }

@@ -39,7 +39,7 @@ struct Steps {
 
 /// Choice of colours, canvas, legend.
 pub fn section(subject: &Subject, colored: &[Colored]) -> String {
-    let choice: String = COLORINGS
+    let choice: Vec<String> = COLORINGS
         .iter()
         .map(|(key, name, _)| {
             let on = if *key == "length" { " checked" } else { "" };
@@ -51,12 +51,13 @@ pub fn section(subject: &Subject, colored: &[Colored]) -> String {
     // No element can end the script: the text has no `<`.
     let data = serde_json::to_string(&data(subject, colored)).expect("plain data");
     format!(
-        "<section><h2>To turn</h2><div class=\"choice\">Colours: {choice}\
+        "<section><h2>View to turn</h2><div class=\"choice\">Colours: {}\
          <label><input type=\"checkbox\" id=\"panels\" checked> panels</label></div>\
          <div class=\"turn\"><canvas id=\"view\" tabindex=\"0\" aria-label=\"The grid in three dimensions\"></canvas>\
          <div class=\"legends\">{}</div></div>\
          <p class=\"note\">Drag to turn, drag with the right button or Shift to move, wheel to zoom, double click to go \
          back.</p><script type=\"application/json\" id=\"grid\">{data}</script></section>",
+        choice.concat(),
         legends(colored)
     )
 }
