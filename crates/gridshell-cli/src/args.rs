@@ -1,5 +1,8 @@
 //! The arguments.
 
+use crate::picture::colour::Coloring;
+use crate::picture::scene::Labels;
+use crate::picture::sheet::{Paper, Sheet};
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use gridshell::io::{Choice, LengthUnit, Opening};
 use std::path::PathBuf;
@@ -28,6 +31,10 @@ pub enum Command {
     Edit(Edit),
     /// Write a grid in other formats.
     Convert(Convert),
+    /// Draw a grid on a sheet to scale.
+    Draw(Draw),
+    /// Grids side by side, for choosing between them.
+    Compare(Compare),
     /// Tell what a file holds: format, units, parts, objects, patches, loops, corners, creases, gaps, what was
     /// skipped, and edge lengths that would suit it.
     Inspect(Inspect),
@@ -134,6 +141,9 @@ pub struct Generate {
     pub handover: Handover,
     #[command(flatten)]
     pub alike: Alike,
+    /// One page of the whole run with pictures, a view to turn, figures and tables; opens without a network.
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,
@@ -176,8 +186,9 @@ pub struct Alike {
     pub angle_tolerance: Option<f64>,
 }
 
+/// A grid from a file, on its surface.
 #[derive(ClapArgs)]
-pub struct Convert {
+pub struct GridArgs {
     /// A grid: a `.gridshell` file or a triangle mesh (OBJ, PLY, STL, OFF, glTF, COMPAS JSON).
     pub grid: PathBuf,
     /// The surface it was laid on: a file or a built-in name. Without it a `.gridshell` file tells, and else the grid
@@ -186,27 +197,69 @@ pub struct Convert {
     pub surface: Option<String>,
     #[command(flatten)]
     pub reading: Reading,
-    /// Where to write it, in the format of the name's end, as for `generate`; may be given more than once.
-    #[arg(short, long, value_name = "FILE", required = true)]
-    pub output: Vec<PathBuf>,
-    #[command(flatten)]
-    pub handover: Handover,
     #[command(flatten)]
     pub alike: Alike,
 }
 
 #[derive(ClapArgs)]
+pub struct Convert {
+    #[command(flatten)]
+    pub grid: GridArgs,
+    /// Where to write it, in the format of the name's end, as for `generate`; may be given more than once.
+    #[arg(short, long, value_name = "FILE", required = true)]
+    pub output: Vec<PathBuf>,
+    #[command(flatten)]
+    pub handover: Handover,
+}
+
+#[derive(ClapArgs)]
 pub struct Measure {
-    /// A grid: a `.gridshell` file or a triangle mesh (OBJ, PLY, STL, OFF, glTF, COMPAS JSON).
-    pub grid: PathBuf,
-    /// The surface it was laid on: a file or a built-in name. Without it a `.gridshell` file tells, and else the grid
-    /// itself is the surface.
+    #[command(flatten)]
+    pub grid: GridArgs,
+    /// One page of the grid with pictures, a view to turn, figures and tables; opens without a network.
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
+    /// Print one JSON document on stdout, and nothing else there.
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(ClapArgs)]
+pub struct Draw {
+    #[command(flatten)]
+    pub grid: GridArgs,
+    /// Where to draw it: .svg, .png or .pdf; may be given more than once.
+    #[arg(short, long, value_name = "FILE", required = true)]
+    pub output: Vec<PathBuf>,
+    /// What the sheet shows.
+    #[arg(long, value_enum, default_value = "plan")]
+    pub view: Sheet,
+    /// What the colours show.
+    #[arg(long, value_enum, default_value = "length")]
+    pub color: Coloring,
+    /// Whose numbers are written beside them, as in the schedules; parted by commas.
+    #[arg(long, value_enum, value_delimiter = ',')]
+    pub labels: Vec<Labels>,
+    /// The paper, in landscape.
+    #[arg(long, value_enum, default_value = "a1")]
+    pub paper: Paper,
+}
+
+#[derive(ClapArgs)]
+pub struct Compare {
+    /// The grids: `.gridshell` files or triangle meshes.
+    #[arg(required = true, num_args = 1.., value_name = "GRID")]
+    pub grids: Vec<PathBuf>,
+    /// The surface they were laid on, as for `measure`.
     #[arg(short, long, value_name = "SURFACE")]
     pub surface: Option<String>,
     #[command(flatten)]
     pub reading: Reading,
     #[command(flatten)]
     pub alike: Alike,
+    /// A page with the table and a plan of each grid.
+    #[arg(long, value_name = "FILE.html")]
+    pub html: Option<PathBuf>,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,
@@ -246,7 +299,7 @@ pub struct Inspect {
     pub surface: String,
     #[command(flatten)]
     pub reading: Reading,
-    /// Draw it, in plan and in perspective (SVG or PNG by extension); may be given more than once.
+    /// Draw it, in plan and in perspective (SVG, PNG or PDF by extension); may be given more than once.
     #[arg(long, value_name = "FILE")]
     pub picture: Vec<PathBuf>,
     /// Print one JSON document on stdout, and nothing else there.

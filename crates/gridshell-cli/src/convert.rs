@@ -3,18 +3,15 @@
 use crate::Outcome;
 use crate::args::Convert;
 use crate::failure::Failure;
-use crate::{handover, recipe, say};
+use crate::{handover, open, say};
 use gridshell::io::{Document, GridFile};
-use gridshell::reopen;
 use gridshell::schedule::{Schedule, Tolerances};
 
 pub fn run(args: &Convert) -> Result<Outcome, Failure> {
     args.output.iter().try_for_each(|path| handover::check_output(path))?;
     let structure = handover::structure(&args.handover)?;
     let supports = handover::supports(&args.handover)?;
-    let mut opened = reopen::open(&args.grid, args.surface.as_deref(), &args.reading.opening())
-        .map_err(Failure::of_input)?;
-    recipe::tolerances(&mut opened.recipe, &args.alike);
+    let opened = open::open(&args.grid)?;
     let (grid, surface) = (&opened.grid, &opened.surface);
     let schedule = Schedule::new(grid, surface, &Tolerances::from(&opened.recipe.measure));
     let supports = match supports {

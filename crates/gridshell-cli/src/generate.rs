@@ -3,7 +3,8 @@
 use crate::Outcome;
 use crate::args::Generate;
 use crate::failure::Failure;
-use crate::{handover, progress, recipe, say, table};
+use crate::subject::Subject;
+use crate::{handover, progress, recipe, report, say, table};
 use gridshell::io::{self, Document, GridFile};
 use gridshell::run::Run;
 use gridshell::structure::Supports;
@@ -14,6 +15,7 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
     let again = again(&args.surface)?;
     let recipe = recipe::from_args(args, again.as_ref().and_then(|d| d.recipe.as_ref()))?;
     args.output.iter().try_for_each(|path| handover::check_output(path))?;
+    args.report.as_deref().map_or(Ok(()), report::check)?;
     let structure = handover::structure(&args.handover)?;
     let supports = handover::supports(&args.handover)?;
     if let Some(n) = args.threads {
@@ -47,7 +49,12 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
     };
     let document = Document::of_run(&run, reference, supports);
     let file = GridFile { document: &document, schedule: &run.schedule, structure: &structure };
-    let wrote = handover::write_all(&outputs, &file)?;
+    let mut wrote = handover::write_all(&outputs, &file)?;
+    if let Some(path) = &args.report {
+        let page = report::page(&Subject::of_run(&run, &document), Some(&run));
+        report::write(path, &page)?;
+        wrote += &format!("\nwrote {}", path.display());
+    }
     if args.json {
         say::json(&run)?;
         say::note(&wrote);

@@ -1,19 +1,25 @@
 //! The command `gridshell`: reads arguments, calls the library, prints. All geometry is in the library.
 
 mod args;
+mod compare;
 mod convert;
+mod draw;
 mod edit;
+mod facts;
 mod failure;
 mod generate;
 mod handover;
 mod inspect;
 mod measure;
+mod open;
 mod picture;
 mod progress;
 mod recipe;
+mod report;
 mod say;
 #[cfg(feature = "studio")]
 mod studio;
+mod subject;
 mod surfaces;
 mod table;
 
@@ -38,6 +44,8 @@ fn main() -> ExitCode {
         Command::Measure(args) => measure::run(args),
         Command::Edit(args) => edit::run(args),
         Command::Convert(args) => convert::run(args),
+        Command::Draw(args) => draw::run(args),
+        Command::Compare(args) => compare::run(args),
         Command::Inspect(args) => inspect::run(args),
         #[cfg(feature = "studio")]
         Command::Studio(args) => studio::run(args),

@@ -3,51 +3,52 @@
 use crate::Outcome;
 use crate::args::Measure;
 use crate::failure::Failure;
-use crate::{recipe, say, table};
-use gridshell::reopen;
+use crate::subject::Measured;
+use crate::{open, report, say, table};
 use gridshell::run::SurfaceSummary;
-use gridshell::schedule::{Figures, Schedule, Tolerances};
-use gridshell::stages::measure::{IrregularNode, Quality, irregular_nodes, measure};
+use gridshell::schedule::Figures;
+use gridshell::stages::measure::{IrregularNode, Quality, irregular_nodes};
 use serde::Serialize;
 
 /// The document of `--json`.
 #[derive(Serialize)]
-struct Document {
+struct Document<'a> {
     schema: &'static str,
     version: &'static str,
     units: &'static str,
-    grid: String,
-    surface: Option<SurfaceSummary>,
+    grid: &'a str,
+    surface: Option<&'a SurfaceSummary>,
     /// What lengths and deviations are measured against: the run's wanted length, else the mean one, metres.
     edge_length: f64,
-    quality: Quality,
-    figures: Figures,
+    quality: &'a Quality,
+    figures: &'a Figures,
     irregular: Vec<IrregularNode>,
 }
 
 pub fn run(args: &Measure) -> Result<Outcome, Failure> {
-    let mut opened = reopen::open(&args.grid, args.surface.as_deref(), &args.reading.opening())
-        .map_err(Failure::of_input)?;
-    recipe::tolerances(&mut opened.recipe, &args.alike);
-    let (grid, surface) = (&opened.grid, &opened.surface);
-    let options = &opened.recipe.measure;
-    let quality = measure(grid, surface, opened.edge_length, options);
-    let figures = Schedule::new(grid, surface, &Tolerances::from(options)).figures;
+    args.report.as_deref().map_or(Ok(()), report::check)?;
+    let measured = Measured::new(open::open(&args.grid)?);
+    let subject = measured.subject();
+    let (name, quality, figures) = (subject.name(), subject.quality, &subject.schedule.figures);
+    if let Some(path) = &args.report {
+        report::write(path, &report::page(&subject, None))?;
+        say::note(&format!("wrote {}", path.display()));
+    }
     if args.json {
         say::json(&Document {
             schema: "gridshell.measure/1",
             version: env!("CARGO_PKG_VERSION"),
             units: "m",
-            grid: opened.document.name,
-            surface: opened.summary,
-            edge_length: opened.edge_length,
-            irregular: irregular_nodes(grid),
+            grid: name,
+            surface: measured.summary(),
+            edge_length: subject.edge_length,
+            irregular: irregular_nodes(subject.grid),
             quality,
             figures,
         })?;
     } else {
-        say::result(&table::grid(&opened.document.name, &quality, &figures))?;
+        say::result(&table::grid(name, quality, figures))?;
     }
-    opened.notes.iter().for_each(|n| say::note(&format!("note: {n}")));
+    measured.notes().iter().for_each(|n| say::note(&format!("note: {n}")));
     Ok(Outcome::Done)
 }

@@ -1,4 +1,6 @@
-//! A drawing as marks on paper: what both writers draw. Pixels, y downwards.
+//! A drawing as marks on paper: what all writers draw. Its unit is a pixel or a millimetre; y downwards.
+
+use gridshell::math::trig;
 
 /// Red, green, blue from 0 to 1.
 pub type Rgb = [f64; 3];
@@ -7,7 +9,18 @@ pub type Rgb = [f64; 3];
 pub struct Drawing {
     /// Width and height.
     pub size: [f64; 2],
+    /// What a step of one is.
+    pub unit: Unit,
+    /// What it is called, for readers of files.
+    pub title: String,
     pub marks: Vec<Mark>,
+}
+
+/// What a drawing is measured in.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Unit {
+    Pixel,
+    Millimetre,
 }
 
 /// One mark.
@@ -16,32 +29,77 @@ pub enum Mark {
     Area { points: Vec<[f64; 2]>, rgb: Rgb },
     /// A line through points.
     Line { points: Vec<[f64; 2]>, width: f64, rgb: Rgb },
-    /// A line whose y is counted from the foot line.
-    Foot { points: Vec<[f64; 2]>, width: f64, rgb: Rgb },
-    /// Digits, points and the letter m, about `at`; `foot`: whether its y is counted from the foot line.
-    Text { at: [f64; 2], text: String, size: f64, rgb: Rgb, foot: bool },
+    /// A line of text.
+    Text(Text),
 }
 
-/// Height of the foot line above the lower edge.
-const FOOT_LINE: f64 = 20.0;
+/// A line of text.
+pub struct Text {
+    /// The place of its anchor, at half the height of its capitals.
+    pub at: [f64; 2],
+    pub words: String,
+    /// Height of the type; capitals are seven tenths of it.
+    pub size: f64,
+    pub rgb: Rgb,
+    pub anchor: Anchor,
+    /// How far it is turned counter-clockwise about the anchor, degrees.
+    pub turn_deg: f64,
+}
+
+/// What of a text stands at its place.
+#[derive(Clone, Copy)]
+pub enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// From the middle of capitals down to the ground line, over the size of the type.
+pub const GROUND: f64 = 0.36;
+
+impl Unit {
+    /// How much triangles of one colour overlap, so that no paper shines through between them.
+    pub fn overlap(self) -> f64 {
+        match self {
+            Unit::Pixel => 0.6,
+            Unit::Millimetre => 0.05,
+        }
+    }
+}
 
 impl Drawing {
-    /// Put the marks of the foot where they belong.
-    pub fn put_down_feet(&mut self) {
-        let ground = self.size[1] - FOOT_LINE;
-        for mark in &mut self.marks {
-            match mark {
-                Mark::Foot { points, width, rgb } => {
-                    let points = points.iter().map(|p| [p[0], p[1] + ground]).collect();
-                    *mark = Mark::Line { points, width: *width, rgb: *rgb };
-                }
-                Mark::Text { at, foot, .. } if *foot => {
-                    at[1] += ground;
-                    *foot = false;
-                }
-                _ => {}
-            }
-        }
+    /// Paper without marks.
+    pub fn new(size: [f64; 2], unit: Unit, title: String) -> Drawing {
+        Drawing { size, unit, title, marks: Vec::new() }
+    }
+
+    pub fn area(&mut self, points: Vec<[f64; 2]>, rgb: Rgb) {
+        self.marks.push(Mark::Area { points, rgb });
+    }
+
+    pub fn line(&mut self, points: Vec<[f64; 2]>, width: f64, rgb: Rgb) {
+        self.marks.push(Mark::Line { points, width, rgb });
+    }
+
+    pub fn text(&mut self, at: [f64; 2], text: &str, size: f64, rgb: Rgb, anchor: Anchor) {
+        let words = text.to_owned();
+        self.marks.push(Mark::Text(Text { at, words, size, rgb, anchor, turn_deg: 0.0 }));
+    }
+
+    /// A filled circle with a ring.
+    pub fn disc(&mut self, [x, y]: [f64; 2], radius: f64, rgb: Rgb, ring: Rgb) {
+        let corner = |k: usize| {
+            let angle = k as f64 * std::f64::consts::TAU / 20.0;
+            let (sin, cos) = (trig::sin(angle), trig::cos(angle));
+            [x + radius * cos, y + radius * sin]
+        };
+        self.area((0..20).map(corner).collect(), rgb);
+        self.line((0..=20).map(corner).collect(), 0.22 * radius, ring);
+    }
+
+    /// A rectangle from its upper left.
+    pub fn rectangle(&mut self, [x, y]: [f64; 2], [w, h]: [f64; 2], rgb: Rgb) {
+        self.area(vec![[x, y], [x + w, y], [x + w, y + h], [x, y + h]], rgb);
     }
 }
 
@@ -50,10 +108,8 @@ impl Mark {
     #[cfg(test)]
     pub fn points(&self) -> &[[f64; 2]] {
         match self {
-            Mark::Area { points, .. } | Mark::Line { points, .. } | Mark::Foot { points, .. } => {
-                points
-            }
-            Mark::Text { at, .. } => std::slice::from_ref(at),
+            Mark::Area { points, .. } | Mark::Line { points, .. } => points,
+            Mark::Text(text) => std::slice::from_ref(&text.at),
         }
     }
 }

@@ -1,44 +1,67 @@
 //! A drawing as PNG.
 
-use super::drawing::{Drawing, Mark, Rgb};
+use super::drawing::{Drawing, Mark, Rgb, Unit};
 use super::glyphs;
 use crate::failure::Failure;
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform,
 };
 
-/// Triangles are outlined in their own colour, so that no paper shines through between them.
-const OVERLAP: f64 = 0.6;
 /// Pen width of characters over their size.
 const PEN: f64 = 0.1;
+/// Pixels of a millimetre: 150 to the inch.
+const PIXELS: f64 = 150.0 / 25.4;
 
 pub fn encode(drawing: &Drawing) -> Result<Vec<u8>, Failure> {
-    let [w, h] = drawing.size.map(|x| x.ceil() as u32);
-    let mut pixels = Pixmap::new(w, h).ok_or_else(|| Failure::other("a picture without extent"))?;
-    pixels.fill(Color::WHITE);
+    let scale = match drawing.unit {
+        Unit::Pixel => 1.0,
+        Unit::Millimetre => PIXELS,
+    };
+    let [w, h] = drawing.size.map(|x| (x * scale).ceil() as u32);
+    let pixels = Pixmap::new(w, h).ok_or_else(|| Failure::other("a picture without extent"))?;
+    let mut canvas = Canvas { pixels, scale: Transform::from_scale(scale as f32, scale as f32) };
+    canvas.pixels.fill(Color::WHITE);
     for mark in &drawing.marks {
         match mark {
-            Mark::Area { points, rgb } => {
-                let Some(path) = trace(points, true) else { continue };
-                let rule = FillRule::Winding;
-                pixels.fill_path(&path, &paint(rgb), rule, Transform::identity(), None);
-                stroke(&mut pixels, &path, OVERLAP, rgb);
-            }
-            Mark::Line { points, width, rgb } | Mark::Foot { points, width, rgb } => {
-                if let Some(path) = trace(points, false) {
-                    stroke(&mut pixels, &path, *width, rgb);
-                }
-            }
-            Mark::Text { at, text, size, rgb, .. } => {
-                for points in glyphs::strokes(text, *at, *size) {
-                    if let Some(path) = trace(&points, false) {
-                        stroke(&mut pixels, &path, PEN * size, rgb);
-                    }
+            Mark::Area { points, rgb } => canvas.fill(points, drawing.unit.overlap(), rgb),
+            Mark::Line { points, width, rgb } => canvas.stroke(points, *width, rgb),
+            Mark::Text(text) => {
+                for points in glyphs::strokes(text) {
+                    canvas.stroke(&points, PEN * text.size, &text.rgb);
                 }
             }
         }
     }
-    pixels.encode_png().map_err(Failure::other)
+    canvas.pixels.encode_png().map_err(Failure::other)
+}
+
+struct Canvas {
+    pixels: Pixmap,
+    scale: Transform,
+}
+
+impl Canvas {
+    fn fill(&mut self, points: &[[f64; 2]], overlap: f64, rgb: &Rgb) {
+        let Some(path) = trace(points, true) else { return };
+        self.pixels.fill_path(&path, &paint(rgb), FillRule::Winding, self.scale, None);
+        self.pen(&path, overlap, rgb);
+    }
+
+    fn stroke(&mut self, points: &[[f64; 2]], width: f64, rgb: &Rgb) {
+        if let Some(path) = trace(points, false) {
+            self.pen(&path, width, rgb);
+        }
+    }
+
+    fn pen(&mut self, path: &Path, width: f64, rgb: &Rgb) {
+        let pen = Stroke {
+            width: width as f32,
+            line_cap: LineCap::Round,
+            line_join: LineJoin::Round,
+            ..Stroke::default()
+        };
+        self.pixels.stroke_path(path, &paint(rgb), &pen, self.scale, None);
+    }
 }
 
 fn trace(points: &[[f64; 2]], closed: bool) -> Option<Path> {
@@ -51,16 +74,6 @@ fn trace(points: &[[f64; 2]], closed: bool) -> Option<Path> {
         path.close();
     }
     path.finish()
-}
-
-fn stroke(pixels: &mut Pixmap, path: &Path, width: f64, rgb: &Rgb) {
-    let pen = Stroke {
-        width: width as f32,
-        line_cap: LineCap::Round,
-        line_join: LineJoin::Round,
-        ..Stroke::default()
-    };
-    pixels.stroke_path(path, &paint(rgb), &pen, Transform::identity(), None);
 }
 
 fn paint(rgb: &Rgb) -> Paint<'static> {

@@ -1,16 +1,20 @@
-//! A drawing as SVG, to a hundredth of a pixel.
+//! A drawing as SVG, to a hundredth of a pixel or millimetre.
 
-use super::drawing::{Drawing, Mark, Rgb};
+use super::drawing::{Anchor, Drawing, GROUND, Mark, Rgb, Text, Unit};
 use std::fmt::Write;
-
-/// Triangles are outlined in their own colour, so that no paper shines through between them.
-const OVERLAP: f64 = 0.6;
 
 pub fn encode(drawing: &Drawing) -> String {
     let [w, h] = drawing.size;
+    let unit = match drawing.unit {
+        Unit::Pixel => "",
+        Unit::Millimetre => "mm",
+    };
+    let overlap = drawing.unit.overlap();
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w:.0}\" height=\"{h:.0}\" viewBox=\"0 0 {w:.0} {h:.0}\" \
-         stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w:.0}{unit}\" height=\"{h:.0}{unit}\" viewBox=\"0 0 {w:.0} \
+         {h:.0}\" stroke-linejoin=\"round\" stroke-linecap=\"round\" font-family=\"Helvetica, Arial, sans-serif\">\n\
+         <title>{}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+        escaped(&drawing.title)
     );
     for mark in &drawing.marks {
         let _ = match mark {
@@ -18,25 +22,56 @@ pub fn encode(drawing: &Drawing) -> String {
                 let (at, colour) = (list(points), hex(rgb));
                 writeln!(
                     out,
-                    "<polygon points=\"{at}\" fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"{OVERLAP}\"/>"
+                    "<polygon points=\"{at}\" fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"{overlap}\"/>"
                 )
             }
-            Mark::Line { points, width, rgb } | Mark::Foot { points, width, rgb } => writeln!(
+            Mark::Line { points, width, rgb } => writeln!(
                 out,
-                "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{width}\"/>",
+                "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{width:.3}\"/>",
                 list(points),
                 hex(rgb)
             ),
-            Mark::Text { at: [x, y], text, size, rgb, .. } => writeln!(
-                out,
-                "<text x=\"{x:.2}\" y=\"{:.2}\" font-family=\"sans-serif\" font-size=\"{size}\" \
-                 text-anchor=\"middle\" fill=\"{}\">{text}</text>",
-                y + 0.35 * size,
-                hex(rgb)
-            ),
+            Mark::Text(text) => writeln!(out, "{}", written(text)),
         };
     }
     out + "</svg>\n"
+}
+
+fn written(text: &Text) -> String {
+    let Text { at: [x, y], size, rgb, .. } = text;
+    let anchor = match text.anchor {
+        Anchor::Start => "start",
+        Anchor::Middle => "middle",
+        Anchor::End => "end",
+    };
+    let turn = match text.turn_deg {
+        0.0 => String::new(),
+        deg => format!(" transform=\"rotate({:.1} {x:.2} {y:.2})\"", -deg),
+    };
+    format!(
+        "<text x=\"{x:.2}\" y=\"{:.2}\"{turn} font-size=\"{size:.3}\" text-anchor=\"{anchor}\" fill=\"{}\">{}</text>",
+        y + GROUND * size,
+        hex(rgb),
+        escaped(&text.words)
+    )
+}
+
+/// Text as it stands in SVG and HTML.
+pub fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            '&' => out += "&amp;",
+            '<' => out += "&lt;",
+            '>' => out += "&gt;",
+            '"' => out += "&quot;",
+            '\'' => out += "&#39;",
+            '\n' => out.push('\n'),
+            c if c.is_control() => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
 }
 
 fn list(points: &[[f64; 2]]) -> String {
@@ -48,7 +83,8 @@ fn list(points: &[[f64; 2]]) -> String {
     out
 }
 
-fn hex(rgb: &Rgb) -> String {
+/// A colour as SVG and HTML have it.
+pub fn hex(rgb: &Rgb) -> String {
     let [r, g, b] = rgb.map(|x| (255.0 * x.clamp(0.0, 1.0)).round() as u8);
     format!("#{r:02x}{g:02x}{b:02x}")
 }

@@ -1,0 +1,222 @@
+//! A grid as it is seen: panels, members and nodes from the farthest to the nearest.
+
+use super::colour::Colours;
+use super::drawing::{Anchor, Drawing, Mark, Rgb, Text};
+use super::frame::Frame;
+use super::light::lit;
+use super::view::{Camera, View};
+use crate::subject::Subject;
+use clap::ValueEnum;
+use gridshell::math::trig;
+
+/// What is written beside the elements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Labels {
+    /// N0, N1, ... as in schedules.
+    Nodes,
+    /// M0, M1, ...
+    Members,
+    /// P0, P1, ...
+    Panels,
+}
+
+/// One thing to be drawn.
+#[derive(Clone, Copy)]
+pub enum Item {
+    Panel(usize),
+    Member(usize),
+    Node(usize),
+}
+
+/// Sizes on paper.
+pub struct Style {
+    /// Width of members.
+    pub member: f64,
+    /// Radius of marked nodes.
+    pub node: f64,
+    /// Height of labels.
+    pub label: f64,
+}
+
+/// Members and nodes lie this share of the mean member length before the panels beside them.
+const BEFORE: f64 = 0.35;
+/// Members of the boundary, of creases and guides are so much wider.
+const WIDE: f64 = 1.8;
+pub const PANEL: Rgb = [0.965, 0.972, 0.978];
+pub const MEMBER: Rgb = [0.42, 0.44, 0.46];
+pub const INK: Rgb = [0.10, 0.11, 0.12];
+pub const PAPER: Rgb = [1.0, 1.0, 1.0];
+pub const SUPPORT: Rgb = [0.05, 0.45, 0.30];
+const OF_MEMBERS: Rgb = [0.10, 0.25, 0.60];
+const OF_PANELS: Rgb = [0.45, 0.30, 0.10];
+
+impl Style {
+    /// What suits members of this mean length on paper, on a sheet whose type is `type_size` high.
+    pub fn of(member_length: f64, type_size: f64) -> Style {
+        Style {
+            member: (0.045 * member_length).clamp(0.04 * type_size, 0.17 * type_size),
+            node: (0.13 * member_length).clamp(0.12 * type_size, 0.6 * type_size),
+            label: (0.16 * member_length).clamp(0.1 * type_size, type_size),
+        }
+    }
+
+    /// Finer lines and smaller type, so that these labels can be read.
+    pub fn beside(self, labels: &[Labels]) -> Style {
+        match labels.len() {
+            0 => self,
+            1 => Style { member: 0.45 * self.member, node: 0.7 * self.node, ..self },
+            _ => Style {
+                member: 0.3 * self.member,
+                node: 0.55 * self.node,
+                label: 0.78 * self.label,
+            },
+        }
+    }
+}
+
+/// Places of the nodes as the camera sees them, and all elements from the farthest to the nearest.
+pub fn seen(subject: &Subject, camera: &Camera) -> (Vec<[f64; 3]>, Vec<Item>) {
+    let schedule = subject.schedule;
+    let seen: Vec<[f64; 3]> = schedule.nodes.xyz.iter().map(|&p| camera.see(p)).collect();
+    let depth = |v: u32| seen[v as usize][2];
+    let before = BEFORE * schedule.figures.length.spread.mean;
+    let mut items: Vec<(f64, Item)> = Vec::new();
+    for (k, t) in schedule.panels.nodes.iter().enumerate() {
+        items.push((t.iter().map(|&v| depth(v)).sum::<f64>() / 3.0, Item::Panel(k)));
+    }
+    for (k, [a, b]) in schedule.members.ends.iter().enumerate() {
+        items.push((f64::midpoint(depth(*a), depth(*b)) - before, Item::Member(k)));
+    }
+    for v in 0..seen.len() {
+        items.push((seen[v][2] - 2.0 * before, Item::Node(v)));
+    }
+    // From the farthest to the nearest; at equal depth in their order.
+    items.sort_by(|a, b| b.0.total_cmp(&a.0));
+    (seen, items.into_iter().map(|(_, item)| item).collect())
+}
+
+/// Draw a grid.
+pub fn draw(
+    subject: &Subject,
+    colours: &Colours,
+    view: View,
+    camera: &Camera,
+    frame: &Frame,
+    style: &Style,
+    drawing: &mut Drawing,
+) {
+    let schedule = subject.schedule;
+    let (members, panels) = (&schedule.members, &schedule.panels);
+    let (seen, items) = seen(subject, camera);
+    let places: Vec<[f64; 2]> = seen.iter().map(|&s| frame.place(s)).collect();
+    let place = |v: u32| places[v as usize];
+    let shaded = view != View::Plan;
+    let supported = supported(subject);
+    for item in items {
+        match item {
+            Item::Panel(k) => {
+                let t = panels.nodes[k];
+                let plain = colours.of(colours.panels[k]).unwrap_or(PANEL);
+                let at = schedule.nodes.xyz[t[0] as usize];
+                let rgb = if shaded { lit(plain, panels.normal[k], at, camera) } else { plain };
+                drawing.area(t.map(place).to_vec(), rgb);
+            }
+            Item::Member(k) => {
+                let wide = members.boundary[k] || members.feature[k];
+                let width = if wide { WIDE * style.member } else { style.member };
+                let rgb = colours.of(colours.members[k]).unwrap_or(MEMBER);
+                drawing.line(members.ends[k].map(place).to_vec(), width, rgb);
+            }
+            Item::Node(v) => {
+                if supported[v] {
+                    support(places[v], 1.1 * style.node, drawing);
+                }
+                mark(subject, colours, v, places[v], style.node, drawing);
+            }
+        }
+    }
+}
+
+/// The mark of an irregular node: black for too few members, white for too many, or its colour.
+fn mark(
+    subject: &Subject,
+    colours: &Colours,
+    v: usize,
+    at: [f64; 2],
+    radius: f64,
+    drawing: &mut Drawing,
+) {
+    let nodes = &subject.schedule.nodes;
+    if !nodes.is_irregular(v) {
+        return;
+    }
+    let few = nodes.adjusted_degree[v] < gridshell::degree::REGULAR;
+    let plain = if few { INK } else { PAPER };
+    drawing.disc(at, radius, colours.of(colours.nodes[v]).unwrap_or(plain), INK);
+}
+
+/// A triangle that stands below a supported node.
+pub fn support([x, y]: [f64; 2], size: f64, drawing: &mut Drawing) {
+    let foot = [[x, y], [x + 0.8 * size, y + 1.5 * size], [x - 0.8 * size, y + 1.5 * size]];
+    drawing.area(foot.to_vec(), PAPER);
+    drawing.line([foot[0], foot[1], foot[2], foot[0]].to_vec(), 0.2 * size, SUPPORT);
+}
+
+fn supported(subject: &Subject) -> Vec<bool> {
+    let mut supported = vec![false; subject.schedule.nodes.xyz.len()];
+    for &v in &subject.document.supports {
+        supported[v as usize] = true;
+    }
+    supported
+}
+
+/// Write the numbers of elements.
+pub fn label(
+    subject: &Subject,
+    labels: &[Labels],
+    camera: &Camera,
+    frame: &Frame,
+    style: &Style,
+    drawing: &mut Drawing,
+) {
+    let schedule = subject.schedule;
+    let place = |v: u32| frame.place(camera.see(schedule.nodes.xyz[v as usize]));
+    let size = style.label;
+    let mut write = |at: [f64; 2], words: String, rgb: Rgb, turn_deg: f64| {
+        drawing.marks.push(Mark::Text(Text {
+            at,
+            words,
+            size,
+            rgb,
+            anchor: Anchor::Middle,
+            turn_deg,
+        }));
+    };
+    if labels.contains(&Labels::Panels) {
+        for (k, t) in schedule.panels.nodes.iter().enumerate() {
+            let p = t.map(place);
+            let at = [0, 1].map(|i| (p[0][i] + p[1][i] + p[2][i]) / 3.0);
+            write(at, format!("P{k}"), OF_PANELS, 0.0);
+        }
+    }
+    if labels.contains(&Labels::Members) {
+        for (k, ends) in schedule.members.ends.iter().enumerate() {
+            let [a, b] = ends.map(place);
+            // From left to right, so that no number stands on its head.
+            let (a, b) = if a[0] <= b[0] { (a, b) } else { (b, a) };
+            let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+            let length = (dx * dx + dy * dy).sqrt().max(f64::MIN_POSITIVE);
+            let up = 0.62 * size / length;
+            let at = [f64::midpoint(a[0], b[0]) + dy * up, f64::midpoint(a[1], b[1]) - dx * up];
+            write(at, format!("M{k}"), OF_MEMBERS, trig::atan2(-dy, dx).to_degrees());
+        }
+    }
+    if labels.contains(&Labels::Nodes) {
+        for v in 0..schedule.nodes.xyz.len() {
+            let [x, y] = place(v as u32);
+            let text = format!("N{v}");
+            let aside = 0.5 * super::glyphs::length(&text, size) + 0.5 * size;
+            write([x + aside, y - 0.75 * size], text, INK, 0.0);
+        }
+    }
+}

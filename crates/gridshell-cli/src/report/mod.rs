@@ -1,0 +1,139 @@
+//! One page that tells of a grid: pictures, a view that can be turned, figures and tables. It holds all it needs, so it
+//! opens without a network; colours and cameras are those of the sheets.
+
+mod charts;
+mod measures;
+mod pictures;
+mod tables;
+mod viewer;
+
+use crate::failure::Failure;
+use crate::picture::colour::{Coloring, Colours};
+use crate::picture::svg::escaped;
+use crate::picture::view::View;
+use crate::subject::Subject;
+use gridshell::io;
+use gridshell::run::Run;
+use std::path::Path;
+
+pub use pictures::{Colored, plan, style};
+
+const STYLE: &str = include_str!("page.css");
+
+/// The colourings that the page can show, by the names that its script and its style know them by.
+pub const COLORINGS: [(&str, &str, Coloring); 5] = [
+    ("length", "length", Coloring::Length),
+    ("disfluency", "angle disfluency", Coloring::Disfluency),
+    ("degree", "degree of nodes", Coloring::Degree),
+    ("shape", "shape of panels", Coloring::Shape),
+    ("none", "none", Coloring::None),
+];
+
+/// Refuse a file that is no page, or has no folder, before the work is done.
+pub fn check(file: &Path) -> Result<(), Failure> {
+    let html = file.extension().is_some_and(|e| e.eq_ignore_ascii_case("html"));
+    let folder = file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    match (html, folder.is_dir()) {
+        (false, _) => Err(Failure::usage(format!("{}: a page must end in .html", file.display()))),
+        (_, false) => {
+            let (file, folder) = (file.display(), folder.display());
+            Err(Failure::usage(format!("{file}: there is no folder {folder}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Write a page; it appears whole or not at all.
+pub fn write(file: &Path, page: &str) -> Result<(), Failure> {
+    io::replace(file, page.as_bytes()).map_err(Failure::other)
+}
+
+/// The page of a grid, and of the run that made it if there is one.
+pub fn page(subject: &Subject, run: Option<&Run>) -> String {
+    let colored: Vec<Colored> = COLORINGS
+        .iter()
+        .map(|&(key, _, coloring)| Colored { key, colours: Colours::new(coloring, subject) })
+        .collect();
+    let mut body = header(subject, run);
+    body += &warnings(run);
+    body += &viewer::section(subject, &colored);
+    body += "<section><h2>Plan and perspective</h2><div class=\"pictures\">";
+    for (view, caption) in [(View::Plan, "Plan"), (View::Perspective, "Perspective")] {
+        let picture = pictures::picture(subject, &colored, view);
+        body += &format!("<figure>{picture}<figcaption>{caption}</figcaption></figure>");
+    }
+    body += "</div><p class=\"note\">Black nodes have too few members, white ones too many. The pictures take their \
+             colours from the choice above.</p></section>";
+    body += &measures::section(subject);
+    body += &charts::section(subject);
+    body += &tables::figures(subject);
+    if let Some(run) = run {
+        body += &tables::stages(run);
+    }
+    body += &tables::lengths(subject);
+    body += &tables::irregular(subject);
+    body += &tables::recipe(subject);
+    body += &format!(
+        "<footer>{}. Lengths in metres, angles in degrees.</footer>",
+        escaped(&subject.origin())
+    );
+    body += &viewer::script();
+    let title = format!("{}: triangular grid", subject.name());
+    whole(&title, &style(&colored), &body)
+}
+
+/// A page of these parts.
+pub fn whole(title: &str, style: &str, body: &str) -> String {
+    format!(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" \
+         content=\"width=device-width, initial-scale=1\"><title>{}</title>\n<style>\n{STYLE}\n{style}</style></head>\n\
+         <body data-colour=\"length\">\n{body}\n</body></html>\n",
+        escaped(title)
+    )
+}
+
+fn header(subject: &Subject, run: Option<&Run>) -> String {
+    let (q, f) = (subject.quality, &subject.schedule.figures);
+    let tile = |value: String, name: &str| {
+        format!("<div class=\"tile\"><b>{value}</b><span>{name}</span></div>")
+    };
+    let tiles = [
+        tile(q.nodes.to_string(), "nodes"),
+        tile(q.members.to_string(), "members"),
+        tile(q.panels.to_string(), "panels"),
+        tile(format!("{:.2} m", f.length.spread.mean), "mean member"),
+        tile(q.fluency.map_or("&infin;".to_owned(), |x| format!("{x:.2}")), "fluency Q"),
+        tile(q.irregular.interior.to_string(), "irregular nodes inside"),
+        tile(f.length.groups.to_string(), "member lengths"),
+        tile(f.panel.distinct.to_string(), "kinds of panels"),
+    ];
+    let seed = subject.document.seed.map_or(String::new(), |s| format!(" Seed {s}."));
+    let took = run.map_or(String::new(), |run| {
+        let seconds: f64 = run.stages.iter().map(|s| s.seconds).sum();
+        format!(" Made in {seconds:.1} s.")
+    });
+    format!(
+        "<header><h1>{}</h1><p>Triangular grid of members about {:.3} m long, by gridshell {}.{seed}{took}</p>\
+         <div class=\"tiles\">{}</div></header>",
+        escaped(subject.name()),
+        subject.edge_length,
+        escaped(&subject.document.version),
+        tiles.concat()
+    )
+}
+
+fn warnings(run: Option<&Run>) -> String {
+    let Some(run) = run else { return String::new() };
+    let mut all: Vec<String> = run.surface.notes.iter().chain(&run.warnings).cloned().collect();
+    if run.stopped {
+        all.push("the run was stopped early: this is the best grid so far".into());
+    }
+    if all.is_empty() {
+        return String::new();
+    }
+    let items: Vec<String> = all.iter().map(|w| format!("<li>{}</li>", escaped(w))).collect();
+    format!(
+        "<section class=\"warnings\"><h2>What to know</h2><ul>{}</ul></section>",
+        items.concat()
+    )
+}

@@ -1,0 +1,153 @@
+//! Small inline pictures of a grid whose colours the page can switch: elements have a class for each colouring.
+
+use crate::picture::colour::{Colours, Scale};
+use crate::picture::drawing::Rgb;
+use crate::picture::frame::{Extent, Frame};
+use crate::picture::scene::{self, Item, PANEL};
+use crate::picture::svg::hex;
+use crate::picture::view::View;
+use crate::picture::{legend_of, lit};
+use crate::subject::Subject;
+use gridshell::degree::REGULAR;
+use std::fmt::Write;
+
+/// Greater side of a picture in its own units: fine enough for whole numbers.
+const SIDE: f64 = 4000.0;
+/// Room round it, for the marks.
+const ROOM: f64 = 60.0;
+/// Steps of light on panels.
+const LIGHTS: usize = 12;
+/// The least light there is.
+const DARKEST: f64 = 0.5;
+
+/// The colours of a grid, and their name on the page.
+pub struct Colored {
+    pub key: &'static str,
+    pub colours: Colours,
+}
+
+/// The grid from here.
+pub fn picture(subject: &Subject, colored: &[Colored], view: View) -> String {
+    let schedule = subject.schedule;
+    let points = &schedule.nodes.xyz;
+    let camera = view.camera(points);
+    let extent = Extent::of(&camera, points);
+    let [w, h] = extent.size();
+    let scale = SIDE / w.max(h).max(f64::MIN_POSITIVE);
+    let frame = Frame::new(&extent, scale, [ROOM, ROOM]);
+    let size = [w, h].map(|x| (x * scale + 2.0 * ROOM).ceil());
+    let (seen, items) = scene::seen(subject, &camera);
+    let places: Vec<[i64; 2]> =
+        seen.iter().map(|&s| frame.place(s).map(|x| x.round() as i64)).collect();
+    let member = scale * schedule.figures.length.spread.mean;
+    let width = (0.09 * member).clamp(5.0, 18.0);
+    let radius = (0.13 * member).clamp(8.0, 40.0);
+    let mut out = format!(
+        "<svg class=\"grid\" viewBox=\"0 0 {} {}\" style=\"--w:{width:.1}\" stroke-linejoin=\"round\" \
+         stroke-linecap=\"round\">",
+        size[0], size[1]
+    );
+    for item in items {
+        match item {
+            Item::Panel(k) => {
+                let t = schedule.panels.nodes[k];
+                let [a, b, c] = t.map(|v| places[v as usize]);
+                let light = match view {
+                    View::Plan => LIGHTS - 1,
+                    _ => light(
+                        lit([1.0; 3], schedule.panels.normal[k], points[t[0] as usize], &camera)[0],
+                    ),
+                };
+                let classes = classes(colored, |c| c.panels[k]);
+                let _ = write!(out, "<path class=\"p h{light}{classes}\" d=\"M{} {}", a[0], a[1]);
+                let _ = write!(out, "L{} {}L{} {}Z\"/>", b[0], b[1], c[0], c[1]);
+            }
+            Item::Member(k) => {
+                let [a, b] = schedule.members.ends[k].map(|v| places[v as usize]);
+                let classes = classes(colored, |c| c.members[k]);
+                let wide = schedule.members.boundary[k] || schedule.members.feature[k];
+                let wide = if wide { " w" } else { "" };
+                let _ = write!(out, "<path class=\"m{wide}{classes}\" d=\"M{} {}", a[0], a[1]);
+                let _ = write!(out, "L{} {}\"/>", b[0], b[1]);
+            }
+            Item::Node(v) if schedule.nodes.is_irregular(v) => {
+                let few = schedule.nodes.adjusted_degree[v] < REGULAR;
+                let kind = if few { "few" } else { "many" };
+                let classes = classes(colored, |c| c.nodes[v]);
+                let [x, y] = places[v];
+                let _ = write!(
+                    out,
+                    "<circle class=\"n {kind}{classes}\" cx=\"{x}\" cy=\"{y}\" r=\"{radius:.0}\"/>"
+                );
+            }
+            Item::Node(_) => {}
+        }
+    }
+    out + "</svg>"
+}
+
+/// A plan in one colouring.
+pub fn plan(subject: &Subject, colored: &[Colored]) -> String {
+    picture(subject, colored, View::Plan)
+}
+
+/// ` length4`: the step in each colouring that colours the element.
+fn classes(colored: &[Colored], step: impl Fn(&Colours) -> Option<u8>) -> String {
+    let mut text = String::new();
+    for c in colored {
+        if let Some(step) = step(&c.colours) {
+            let _ = write!(text, " {}{step}", initial(c.key));
+        }
+    }
+    text
+}
+
+/// Short names keep the page small.
+fn initial(key: &str) -> &str {
+    &key[..2]
+}
+
+fn light(brightness: f64) -> usize {
+    let share = (brightness - DARKEST) / (1.0 - DARKEST);
+    (share.clamp(0.0, 1.0) * (LIGHTS - 1) as f64).round() as usize
+}
+
+/// What the classes look like in each colouring.
+pub fn style(colored: &[Colored]) -> String {
+    let mut css = String::new();
+    for k in 0..LIGHTS {
+        let brightness = DARKEST + (1.0 - DARKEST) * k as f64 / (LIGHTS - 1) as f64;
+        let _ = writeln!(css, ".h{k}{{fill:{0};stroke:{0}}}", hex(&PANEL.map(|x| x * brightness)));
+    }
+    for Colored { key, colours } in colored {
+        let Some(Scale { steps, .. }) = &colours.scale else { continue };
+        for (k, rgb) in steps.iter().enumerate() {
+            let (colour, short): (String, &str) = (hex(rgb), initial(key));
+            let on = format!("[data-colour={key}]");
+            let _ = writeln!(css, "{on} .m.{short}{k}{{stroke:{colour}}}");
+            let _ = writeln!(css, "{on} .p.{short}{k}{{fill:{colour};stroke:{colour}}}");
+            let _ = writeln!(css, "{on} .n.{short}{k}{{fill:{colour}}}");
+        }
+        let _ = writeln!(
+            css,
+            "{on} .legend.{key}{{display:block}}",
+            on = format_args!("[data-colour={key}]")
+        );
+    }
+    css
+}
+
+/// The legends; the style shows the one that is asked for.
+pub fn legends(colored: &[Colored]) -> String {
+    let one = |c: &Colored| {
+        let scale = c.colours.scale.as_ref()?;
+        Some(format!("<div class=\"legend {}\">{}</div>", c.key, legend_of(scale)))
+    };
+    colored.iter().filter_map(one).collect()
+}
+
+/// Steps as colours for scripts.
+pub fn inks(colours: &Colours) -> Vec<String> {
+    let steps: &[Rgb] = colours.scale.as_ref().map_or(&[], |s| &s.steps);
+    steps.iter().map(hex).collect()
+}

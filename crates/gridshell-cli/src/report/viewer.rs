@@ -1,0 +1,101 @@
+//! The view that can be turned: a canvas, the grid as packed numbers, and a script of our own.
+
+use super::COLORINGS;
+use super::pictures::{Colored, inks, legends};
+use crate::picture::colour::Colours;
+use crate::subject::Subject;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+const SCRIPT: &str = include_str!("viewer.js");
+/// A step that is none.
+const PLAIN: u8 = 255;
+
+/// What the script gets. Lists are packed, little-endian, in base 64.
+#[derive(Serialize)]
+struct Data {
+    /// Positions about the middle, single precision, metres.
+    xyz: String,
+    /// Nodes of members and panels.
+    members: String,
+    panels: String,
+    /// Members of the boundary, creases and guides.
+    wide: String,
+    /// Adjusted degrees less six.
+    excess: String,
+    member_length: f64,
+    colourings: BTreeMap<&'static str, Steps>,
+}
+
+#[derive(Serialize)]
+struct Steps {
+    inks: Vec<String>,
+    members: String,
+    panels: String,
+    nodes: String,
+}
+
+/// Choice of colours, canvas, legend.
+pub fn section(subject: &Subject, colored: &[Colored]) -> String {
+    let choice: Vec<String> = COLORINGS
+        .iter()
+        .map(|(key, name, _)| {
+            let on = if *key == "length" { " checked" } else { "" };
+            format!(
+                "<label><input type=\"radio\" name=\"colour\" value=\"{key}\"{on}> {name}</label>"
+            )
+        })
+        .collect();
+    // No element can end the script: the text has no `<`.
+    let data = serde_json::to_string(&data(subject, colored)).expect("plain data");
+    format!(
+        "<section><h2>View to turn</h2><div class=\"choice\">Colours: {}\
+         <label><input type=\"checkbox\" id=\"panels\" checked> panels</label></div>\
+         <div class=\"turn\"><canvas id=\"view\" tabindex=\"0\" aria-label=\"The grid in three dimensions\"></canvas>\
+         <div class=\"legends\">{}</div></div>\
+         <p class=\"note\">Drag to turn, drag with the right button or Shift to move, wheel to zoom, double click to go \
+         back.</p><script type=\"application/json\" id=\"grid\">{data}</script></section>",
+        choice.concat(),
+        legends(colored)
+    )
+}
+
+pub fn script() -> String {
+    format!("<script>\n{SCRIPT}</script>")
+}
+
+fn data(subject: &Subject, colored: &[Colored]) -> Data {
+    let schedule = subject.schedule;
+    let (nodes, members) = (&schedule.nodes, &schedule.members);
+    let low = nodes.xyz.iter().fold(gridshell::DVec3::INFINITY, |a, &b| a.min(b));
+    let high = nodes.xyz.iter().fold(gridshell::DVec3::NEG_INFINITY, |a, &b| a.max(b));
+    let middle = (low + high) / 2.0;
+    let xyz = nodes.xyz.iter().flat_map(|&p| (p - middle).to_array().map(|x| x as f32));
+    let wide = members.boundary.iter().zip(&members.feature).map(|(b, f)| u8::from(*b || *f));
+    let excess = nodes.adjusted_degree.iter().map(|d| (d - gridshell::degree::REGULAR) as i8 as u8);
+    Data {
+        xyz: packed(xyz.flat_map(f32::to_le_bytes)),
+        members: packed(members.ends.iter().flatten().flat_map(|v| v.to_le_bytes())),
+        panels: packed(schedule.panels.nodes.iter().flatten().flat_map(|v| v.to_le_bytes())),
+        wide: packed(wide),
+        excess: packed(excess),
+        member_length: schedule.figures.length.spread.mean,
+        colourings: colored.iter().map(|c| (c.key, steps(&c.colours))).collect(),
+    }
+}
+
+fn steps(colours: &Colours) -> Steps {
+    let pack = |steps: &[Option<u8>]| packed(steps.iter().map(|s| s.unwrap_or(PLAIN)));
+    Steps {
+        inks: inks(colours),
+        members: pack(&colours.members),
+        panels: pack(&colours.panels),
+        nodes: pack(&colours.nodes),
+    }
+}
+
+fn packed(bytes: impl Iterator<Item = u8>) -> String {
+    STANDARD.encode(bytes.collect::<Vec<u8>>())
+}
