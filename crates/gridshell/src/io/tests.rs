@@ -95,7 +95,7 @@ fn grids_read_back_exactly_from_every_format() {
         let text = String::from_utf8_lossy(&fs::read(&file.0).expect("just written")).into_owned();
         assert!(text.contains("metre"), "{extension} states the unit");
         if extension == "obj" {
-            assert!(text.contains("\nl 3 1\n"));
+            assert!(text.contains("\nl 1 3\n"));
         }
     }
 }

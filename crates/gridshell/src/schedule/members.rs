@@ -93,5 +93,5 @@ fn fold(grid: &Grid, a: u32, b: u32) -> Option<f64> {
     let along = (pb - pa).normalize_or_zero();
     let on_left = along.cross(pl - pa);
     let on_right = (pr - pa).cross(along);
-    Some(-trig::atan2(on_left.cross(on_right).dot(along), on_left.dot(on_right)))
+    Some(trig::atan2(on_left.cross(on_right).dot(along), on_left.dot(on_right)))
 }
