@@ -52,6 +52,8 @@ const TYPE: f64 = 3.6;
 const LINE: f64 = 6.2;
 const THICK: f64 = 0.5;
 const THIN: f64 = 0.18;
+/// Nodes whose colours matter are so much larger.
+const COLOURED_NODES: f64 = 1.6;
 /// What is added to a view for the width of its marks, over the size of type.
 const ROOM_FOR_MARKS: f64 = 1.5;
 /// Denominators that rulers have, ascending, to be had times powers of ten; and those of enlargements.
@@ -120,7 +122,10 @@ pub fn sheet(subject: &Subject, wish: &Wish) -> Drawing {
     let scale = 1000.0 / denominator(&views, &cells);
     let colours = Colours::new(wish.coloring, subject);
     let member = scale * subject.schedule.figures.length.spread.mean;
-    let style = Style::of(member, TYPE * f).beside(wish.labels);
+    let mut style = Style::of(member, TYPE * f).beside(wish.labels);
+    if wish.coloring == Coloring::Degree {
+        style.node *= COLOURED_NODES;
+    }
     for ((view, camera, extent), cell) in views.iter().zip(&cells) {
         let frame = Frame::centred(extent, scale, cell.at, cell.room);
         scene::draw(subject, &colours, *view, camera, &frame, &style, &mut drawing);

@@ -43,7 +43,7 @@ pub fn picture(subject: &Subject, colored: &[Colored], view: View) -> String {
     let width = (0.09 * member).clamp(5.0, 18.0);
     let radius = (0.13 * member).clamp(8.0, 40.0);
     let mut out = format!(
-        "<svg class=\"grid\" viewBox=\"0 0 {} {}\" style=\"--w:{width:.1}\" stroke-linejoin=\"round\" \
+        "<svg class=\"grid\" viewBox=\"0 0 {} {}\" style=\"--w:{width:.1};--r:{radius:.0}px\" stroke-linejoin=\"round\" \
          stroke-linecap=\"round\">",
         size[0], size[1]
     );

@@ -137,7 +137,8 @@
     sorted(showPanels && !(dragging && many));
     const colours = colourings[document.body.dataset.colour];
     const thin = Math.min(3, Math.max(0.7, 0.055 * data.member_length * scale));
-    const dot = Math.min(7, Math.max(1.5, 0.13 * data.member_length * scale));
+    const large = document.body.dataset.colour === "degree" ? 1.6 : 1;
+    const dot = large * Math.min(7, Math.max(1.5, 0.13 * data.member_length * scale));
     for (const i of order) {
       if (i < panelCount) panel(i, colours, towards);
       else if (i < panelCount + memberCount) member(i - panelCount, colours, thin);
