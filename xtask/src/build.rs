@@ -45,6 +45,13 @@ pub fn gridshell() -> Result<PathBuf, String> {
     Ok(target().join("release/gridshell"))
 }
 
+/// The command `gridshell` as the tests have it: whoever has run them waits for nothing.
+pub fn tested() -> Result<PathBuf, String> {
+    cargo(&["test", "--workspace", "--no-run", "--quiet"], &[])?;
+    let command = target().join("debug/gridshell");
+    command.canonicalize().map_err(|e| format!("{}: {e}", command.display()))
+}
+
 /// Where cargo puts what it builds.
 pub fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR")

@@ -1,6 +1,6 @@
 //! The tests of the studio's page: types and format, then a person's steps in Chromium.
 
-use crate::build::{cargo, target};
+use crate::build::tested;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -10,9 +10,7 @@ pub fn test(hear: &mut dyn FnMut(&str)) -> Result<(), String> {
     let chromium = chromium()?;
     npm(&page, &["ci", "--prefer-offline", "--no-audit", "--no-fund"])?;
     npm(&page, &["run", "check"])?;
-    cargo(&["build", "--quiet", "--package", "gridshell-cli"], &[])?;
-    let command = target().join("debug/gridshell");
-    let command = command.canonicalize().map_err(|e| format!("{}: {e}", command.display()))?;
+    let command = tested()?;
     eprintln!("node --test");
     let output = Command::new("node")
         .args(["--test", "--test-concurrency=1", "--test-reporter=tap", "tests/"])

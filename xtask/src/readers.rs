@@ -1,7 +1,7 @@
 //! Programs that others wrote read back what gridshell writes: the tests in `tests/readers`, with the versions pinned
 //! there. They are installed below cargo's target folder with `python3 -m venv`, `pip` and `npm`; nothing else changes.
 
-use crate::build::{cargo, target};
+use crate::build::{target, tested};
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,8 +27,7 @@ pub fn run() -> Result<Tally, String> {
     let python = python(&tests, &folder)?;
     let node = node(&tests, &folder)?;
     let libraries = libraries(&folder, &python);
-    cargo(&["build", "--quiet", "--package", "gridshell-cli"], &[])?;
-    let gridshell = target().join("debug/gridshell").canonicalize().map_err(|e| e.to_string())?;
+    let gridshell = tested()?;
 
     let mut pytest = Command::new(&python);
     pytest.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "-rs"]).arg(&tests);
