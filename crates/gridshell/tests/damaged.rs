@@ -1,11 +1,10 @@
 //! The files that the fuzz targets start from, and those that they broke a reader with: the first are read, the
-//! second are answered, with a surface or an error.
+//! second take no longer than others.
 
 use gridshell::io;
 use gridshell::surface::{Model, Sampling};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 /// Folders whose files hold no surface.
 const OTHER: [&str; 3] = ["lines", "values", "recipe"];
@@ -42,12 +41,15 @@ fn every_seed_is_a_surface() {
 }
 
 #[test]
-fn every_find_is_answered_in_time() {
-    for file in files("finds") {
-        let start = Instant::now();
-        if let Ok(model) = io::open(&file.to_string_lossy()) {
-            let _ = model.surface(&sampling(&model));
-        }
-        assert!(start.elapsed() < Duration::from_secs(10), "{}", file.display());
+fn no_find_asks_for_more_triangles_than_a_sane_file() {
+    let files = files("finds");
+    assert!(files.len() >= 2);
+    for file in files {
+        let model = io::open(&file.to_string_lossy()).expect("its numbers are odd, not wrong");
+        let size = model.size();
+        let fine = Sampling { max_edge: size / 80.0, chord_error: 1e-4 * size, corner_angle: 0.6 };
+        let surface = model.surface(&fine).expect("a coarse carrier can be had");
+        let triangles = surface.carrier.triangles.len();
+        assert!(triangles < 200_000, "{}: {triangles} triangles", file.display());
     }
 }

@@ -23,11 +23,21 @@ const CANDIDATES: f64 = 5.0;
 const GROWTH: f64 = 0.5;
 /// Candidate rows and candidates in a row at most: a guard for degenerate patches.
 const MOST: usize = 20_000;
+/// Points looked at, for each node that a face may have, before it counts as crowded.
+const LOOKS_TO_A_NODE: usize = 4_000;
+/// What a candidate takes besides, most of it for its point and normal, in such looks.
+const LOOKS_TO_A_CANDIDATE: usize = 50;
 /// Probes of the bending at most in each direction.
 const MOST_PROBES: f64 = 160.0;
 
-/// Nodes for the inside of the polygons `loops`.
-pub(super) fn inside(shape: &Shape, loops: &[Vec<Node>], sampling: &Sampling) -> Vec<Node> {
+/// Nodes for the inside of the polygons `loops`. None where there would be more than `most`, or where they crowd
+/// so that finding them takes long.
+pub(super) fn inside(
+    shape: &Shape,
+    loops: &[Vec<Node>],
+    sampling: &Sampling,
+    most: usize,
+) -> Option<Vec<Node>> {
     let sizes = Sizes::new(shape, loops, sampling);
     let mut taken = Taken::new(sampling.max_edge);
     for l in loops {
@@ -70,6 +80,9 @@ pub(super) fn inside(shape: &Shape, loops: &[Vec<Node>], sampling: &Sampling) ->
                     taken.push(jet.point, normal, size);
                     nodes.push(Node { uv, xyz: jet.point, vertex: NEW, free: None });
                 }
+                if nodes.len() > most || taken.looks > LOOKS_TO_A_NODE * most {
+                    return None;
+                }
                 u += (wanted / (CANDIDATES * along.max(1e-300)))
                     .min(0.5 * (u1 - u0))
                     .max(1e-9 * (hi.x - lo.x));
@@ -80,7 +93,7 @@ pub(super) fn inside(shape: &Shape, loops: &[Vec<Node>], sampling: &Sampling) ->
             break;
         }
     }
-    nodes
+    Some(nodes)
 }
 
 /// Box of the polygons in (u, v).
@@ -170,6 +183,8 @@ impl Sizes {
 struct Taken {
     cell: f64,
     cells: HashMap<IVec3, Vec<(DVec3, DVec3, f64)>, BuildHasherDefault<Mix>>,
+    /// Points that were looked at so far.
+    looks: usize,
 }
 
 /// Hashes the three numbers of a cell, quickly: nobody chooses them to collide.
@@ -195,7 +210,7 @@ impl Hasher for Mix {
 
 impl Taken {
     fn new(cell: f64) -> Taken {
-        Taken { cell, cells: HashMap::default() }
+        Taken { cell, cells: HashMap::default(), looks: 0 }
     }
 
     fn key(&self, p: DVec3) -> IVec3 {
@@ -207,14 +222,16 @@ impl Taken {
     }
 
     /// The spacing a point here would have, if there is room for it.
-    fn room(&self, p: DVec3, normal: DVec3, wanted: f64) -> Option<f64> {
+    fn room(&mut self, p: DVec3, normal: DVec3, wanted: f64) -> Option<f64> {
         let (lo, hi) = (self.key(p - wanted), self.key(p + wanted));
         let mut size = wanted;
         let mut nearest = f64::INFINITY;
+        self.looks += LOOKS_TO_A_CANDIDATE;
         for x in lo.x..=hi.x {
             for y in lo.y..=hi.y {
                 for z in lo.z..=hi.z {
                     for &(q, m, s) in self.cells.get(&IVec3::new(x, y, z)).into_iter().flatten() {
+                        self.looks += 1;
                         let d = p.distance(q);
                         // A sheet that faces away lies on the other side of a fold.
                         if d >= wanted || m.dot(normal) < 0.0 {

@@ -104,11 +104,11 @@ impl<'a> Web<'a> {
         pinches
     }
 
-    /// Flip and split until every inner edge keeps the sampling.
-    pub fn refine(&mut self, sampling: &Sampling) {
+    /// Flip and split until every inner edge keeps the sampling, or there are more than `most` nodes.
+    pub fn refine(&mut self, sampling: &Sampling, most: usize) {
         for _ in 0..MAX_ROUNDS {
             self.flip_all();
-            if !self.split_long(sampling) {
+            if !self.split_long(sampling) || self.nodes.len() > most {
                 break;
             }
         }

@@ -1,12 +1,14 @@
 //! The plane in which a face is triangulated: (u, v) scaled to lengths, and near poles so that angles keep.
 
-use super::shape::{Pole, Shape};
+use super::shape::{Jet, Pole, Shape};
 use glam::DVec2;
 
 /// Samples of a stretched direction.
 const STEPS: usize = 1000;
 /// Samples across it.
 const ACROSS: usize = 8;
+/// Probes of a patch in each direction.
+const EACH: usize = 12;
 /// A circle round a pole counts as no shorter than this many `max_edge`: the pole itself stays in reach.
 const LEAST_CIRCLE: f64 = 1.0;
 
@@ -72,12 +74,22 @@ impl Stretch {
 
 /// Mean lengths of the derivatives over the box.
 fn mean_metric(shape: &Shape, lo: DVec2, hi: DVec2) -> DVec2 {
-    const EACH: usize = 12;
     let mut sum = DVec2::ZERO;
-    for k in 0..EACH * EACH {
-        let share = DVec2::new((k / EACH) as f64 + 0.5, (k % EACH) as f64 + 0.5) / EACH as f64;
-        let jet = shape.jet(lo + (hi - lo) * share);
+    for jet in probes(shape, lo, hi) {
         sum += DVec2::new(jet.du.length(), jet.dv.length());
     }
     (sum / (EACH * EACH) as f64).max(DVec2::splat(1e-12))
+}
+
+/// Area to a unit of (u, v), on average over the box.
+pub(super) fn mean_area(shape: &Shape, lo: DVec2, hi: DVec2) -> f64 {
+    let all = probes(shape, lo, hi).map(|jet| jet.du.cross(jet.dv).length());
+    all.sum::<f64>() / (EACH * EACH) as f64
+}
+
+fn probes(shape: &Shape, lo: DVec2, hi: DVec2) -> impl Iterator<Item = Jet> {
+    (0..EACH * EACH).map(move |k| {
+        let share = DVec2::new((k / EACH) as f64 + 0.5, (k % EACH) as f64 + 0.5) / EACH as f64;
+        shape.jet(lo + (hi - lo) * share)
+    })
 }

@@ -8,7 +8,7 @@ use super::model::Sampling;
 use super::orient::{self, Wing};
 use super::refine::Web;
 use super::shape::Shape;
-use super::stretch::Stretch;
+use super::stretch::{self, Stretch};
 use super::track::{Track, Tracks};
 use super::trim::{Edges, NEW, Node, Polyline, Tracer, Trim};
 use super::{Carrier, Surface, area, chain, fill, sample, seam, weave};
@@ -19,6 +19,15 @@ use std::f64::consts::PI;
 
 /// More triangles than this are not made.
 const MOST_TRIANGLES: f64 = 8e6;
+
+/// Nodes of one face at most: some for its bends, some for each square of the longest edge in its area. A flat
+/// face has 2.3 to a square, a sphere of 17 squares twice that.
+const NODES_FOR_BENDS: f64 = 20_000.0;
+const NODES_TO_A_SQUARE: f64 = 8.0;
+/// What the chord error is eased by where a crumpled face would have more.
+const EASED: f64 = 4.0;
+/// Eased so often, the spacing no longer depends on bends.
+const MOST_EASINGS: usize = 8;
 
 /// Rounds of leaving out nodes that pinch the surface at a pole.
 const MOST_PINCHES: usize = 20;
@@ -181,15 +190,37 @@ fn piece(
         rims.extend((0..n).map(|i| [from + i, from + (i + 1) % n]));
         from += n;
     }
-    nodes.extend(fill::inside(shape, &loops, sampling));
+    let most = most_nodes(shape, [lo, hi], &loops, sampling);
+    let mut eased = *sampling;
+    let inside = (0..MOST_EASINGS).find_map(|_| {
+        let inside = fill::inside(shape, &loops, &eased, most);
+        eased.chord_error *= EASED;
+        inside
+    });
+    nodes.extend(inside.ok_or(
+        "it is too crumpled for triangles of this length; repair it in the program that made it",
+    )?);
     let mut web = weave_web(shape, nodes, &rims, &stretch)?;
-    web.refine(sampling);
+    web.refine(sampling, most);
     let area: f64 = web
         .triangles
         .iter()
         .map(|t| area::triangle(shape, t.map(|n| parameters(&web.nodes[n as usize]))))
         .sum();
     Ok(Piece { nodes: web.nodes, triangles: web.triangles, area: area + sliver })
+}
+
+/// How many nodes a face may have: a patch that is crumpled, by a fault of its file, would have millions.
+fn most_nodes(
+    shape: &Shape,
+    [lo, hi]: [DVec2; 2],
+    loops: &[Vec<Node>],
+    sampling: &Sampling,
+) -> usize {
+    let rim: usize = loops.iter().map(Vec::len).sum();
+    let area = stretch::mean_area(shape, lo, hi) * 0.5 * polygon_area(loops, DVec2::ONE);
+    let squares = area / (sampling.max_edge * sampling.max_edge);
+    4 * rim + (NODES_FOR_BENDS + NODES_TO_A_SQUARE * squares) as usize
 }
 
 /// Triangulate the nodes. Nodes that pinch the surface at a pole are left out, and all is done again.
