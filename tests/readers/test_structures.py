@@ -151,10 +151,7 @@ def test_saf_options_replace_what_is_stated(made):
 
 def test_ifc_is_valid_and_complete(made, ends, lengths):
     model = ifcopenshell.open(made.folder / "a.ifc")
-    logger = ifcopenshell.validate.json_logger()
-    ifcopenshell.validate.validate(model, logger, express_rules=True)
-    faults = [s for s in logger.statements if s.get("severity", "error").lower() != "info"]
-    assert not faults, faults[:3]
+    assert not faults_of(model)
     assembly = model.by_type("IfcElementAssembly")[0]
     parts = ifcopenshell.util.element.get_decomposition(assembly)
     members = model.by_type("IfcMember")
@@ -180,6 +177,43 @@ def test_ifc_is_valid_and_complete(made, ends, lengths):
         assert face.CoordIndex == ((1, 2, 3),)
         corners = face.Coordinates.CoordList
         assert numpy.allclose(corners, made.xyz[made.panels[k]], rtol=0, atol=1e-9)
+
+
+def test_ifc_has_the_frame_and_what_holds_it(made, ends):
+    model = ifcopenshell.open(made.folder / "a.ifc")
+    frame = model.by_type("IfcStructuralAnalysisModel")[0]
+    assert frame.ServicesBuildings[0].RelatedBuildings[0].is_a("IfcBuilding")
+    assert len(frame.IsGroupedBy[0].RelatedObjects) == len(made.xyz) + len(ends)
+    nodes = model.by_type("IfcStructuralPointConnection")
+    places = [n.Representation.Representations[0].Items[0].VertexGeometry.Coordinates for n in nodes]
+    assert numpy.allclose(places, made.xyz, rtol=0, atol=1e-9)
+    held = [k for k, node in enumerate(nodes) if node.AppliedCondition]
+    assert held == made.truth["supports"]
+    support = model.by_type("IfcBoundaryNodeCondition")[0]
+    moves = [support.TranslationalStiffnessX, support.TranslationalStiffnessY, support.TranslationalStiffnessZ]
+    turns = [support.RotationalStiffnessX, support.RotationalStiffnessY, support.RotationalStiffnessZ]
+    assert [s.wrappedValue for s in moves + turns] == [True] * 3 + [False] * 3
+    members = model.by_type("IfcStructuralCurveMember")
+    for k, member in enumerate(members):
+        joined = [c.RelatedStructuralConnection.Name for c in member.ConnectedBy]
+        assert joined == [f"N{v}" for v in ends[k]]
+        normal = [float(made.members[k][f"normal {c}"]) for c in "xyz"]
+        assert numpy.allclose(member.Axis.DirectionRatios, normal, rtol=0, atol=1e-9)
+    section = ifcopenshell.util.element.get_material(members[0]).MaterialProfiles[0]
+    assert section.Material.Name == "S355" and section.Profile.is_a("IfcRectangleHollowProfileDef")
+
+
+def test_ifc_without_supports_is_valid_and_has_no_frame(made):
+    gridshell(made.folder, "convert", "a.gridshell", "-o", "loose.ifc", "--supports", "none")
+    model = ifcopenshell.open(made.folder / "loose.ifc")
+    assert not model.by_type("IfcStructuralItem") and not faults_of(model)
+
+
+def faults_of(model):
+    """What the validator finds wrong."""
+    logger = ifcopenshell.validate.json_logger()
+    ifcopenshell.validate.validate(model, logger, express_rules=True)
+    return [s for s in logger.statements if s.get("severity", "error").lower() != "info"]
 
 
 def commands(path):
