@@ -45,6 +45,14 @@ impl Failure {
         Failure { code: INPUT, message: format!("{}: {message}", path.display()) }
     }
 
+    /// For an output that cannot be: what was asked is at fault, or the system is.
+    pub fn of_output(error: Error) -> Failure {
+        match error {
+            Error::Io { .. } => Failure::other(error),
+            _ => Failure::from(error),
+        }
+    }
+
     /// For errors after the input has been accepted.
     pub fn other(message: impl Display) -> Failure {
         Failure { code: FAILED, message: message.to_string() }

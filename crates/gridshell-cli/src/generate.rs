@@ -49,12 +49,14 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
     };
     let document = Document::of_run(&run, reference, supports);
     let file = GridFile { document: &document, schedule: &run.schedule, structure: &structure };
-    let mut wrote = handover::write_all(&outputs, &file)?;
+    let wrote = handover::write_all(&outputs, &file);
+    let mut told = String::new();
     if let Some(path) = &args.report {
         let page = report::page(&Subject::of_run(&run, &document), Some(&run));
         report::write(path, &page)?;
-        wrote += &format!("\nwrote {}", path.display());
+        told = format!("\nwrote {}", path.display());
     }
+    let wrote = wrote? + &told;
     if args.json {
         say::json(&run)?;
         say::note(&wrote);

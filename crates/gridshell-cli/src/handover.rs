@@ -2,6 +2,7 @@
 
 use crate::args::Handover;
 use crate::failure::Failure;
+use crate::say;
 use gridshell::io::{self, GridFile};
 use gridshell::structure::{Material, Structure, Supports};
 use std::path::{Path, PathBuf};
@@ -29,29 +30,21 @@ pub fn supports(args: &Handover) -> Result<Option<Supports>, Failure> {
 
 /// Refuse an output that cannot be written before the work is done, not after.
 pub fn check_output(path: &Path) -> Result<(), Failure> {
-    io::check_output(path)?;
-    check_folder(path)
+    io::check_output(path).map_err(Failure::of_output)
 }
 
-/// Refuse a file in a folder that is not there.
-pub fn check_folder(path: &Path) -> Result<(), Failure> {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if !folder.is_dir() {
-        return Err(Failure::usage(format!(
-            "{}: there is no folder {}",
-            path.display(),
-            folder.display()
-        )));
-    }
-    Ok(())
-}
-
-/// Write all outputs; gives a line on each file.
+/// Write all outputs; gives a line on each file. One that fails does not keep the others from being written.
 pub fn write_all(outputs: &[PathBuf], file: &GridFile) -> Result<String, Failure> {
-    let mut wrote = Vec::new();
+    let (mut wrote, mut failed) = (Vec::new(), Vec::new());
     for path in outputs {
-        let files = io::write(path, file).map_err(Failure::other)?;
-        wrote.extend(files.iter().map(|p| format!("wrote {}", p.display())));
+        match io::write(path, file) {
+            Ok(files) => wrote.extend(files.iter().map(|p| format!("wrote {}", p.display()))),
+            Err(e) => failed.push(e.to_string()),
+        }
     }
-    Ok(wrote.join("\n"))
+    if failed.is_empty() {
+        return Ok(wrote.join("\n"));
+    }
+    wrote.iter().for_each(|line| say::note(line));
+    Err(Failure::other(failed.join("; ")))
 }

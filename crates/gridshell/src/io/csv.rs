@@ -5,14 +5,13 @@ use super::GridFile;
 use crate::schedule::{Figures, Schedule, Spread};
 use std::fmt::Write;
 
+/// Names of the tables.
+pub(super) const TABLES: [&str; 4] = ["nodes", "members", "panels", "summary"];
+
 /// The tables: name and text.
 pub(super) fn tables(grid: &GridFile) -> [(&'static str, String); 4] {
-    [
-        ("nodes", nodes(grid)),
-        ("members", members(grid)),
-        ("panels", panels(grid)),
-        ("summary", summary(grid)),
-    ]
+    let [a, b, c, d] = TABLES;
+    [(a, nodes(grid)), (b, members(grid)), (c, panels(grid)), (d, summary(grid))]
 }
 
 fn nodes(grid: &GridFile) -> String {

@@ -95,19 +95,28 @@ pub fn write(path: &Path, grid: &GridFile) -> Result<Vec<PathBuf>> {
 }
 
 /// `a.csv` becomes `a.nodes.csv` and its sisters.
-fn write_tables(path: &Path, grid: &GridFile) -> Result<Vec<PathBuf>> {
-    let one = |(name, text): (&str, String)| {
-        let path = path.with_extension(format!("{name}.csv"));
-        file::replace(&path, text.as_bytes())?;
-        Ok(path)
-    };
-    csv::tables(grid).into_iter().map(one).collect()
+fn table(path: &Path, name: &str) -> PathBuf {
+    path.with_extension(format!("{name}.csv"))
 }
 
-/// Whether [`write()`] knows a format for this path: to be asked before long work.
+/// All tables, or none.
+fn write_tables(path: &Path, grid: &GridFile) -> Result<Vec<PathBuf>> {
+    let tables = csv::tables(grid);
+    let files = tables.each_ref().map(|(name, text)| (table(path, name), text.as_bytes()));
+    file::replace_all(&files)?;
+    Ok(files.map(|(path, _)| path).to_vec())
+}
+
+/// Whether [`write()`] knows a format for this path and may write there: to be asked before long work.
 ///
 /// # Errors
-/// [`Error::Option`] listing the known ends.
+/// [`Error::Option`] listing the known ends, or naming the folder that is missing or in the way; [`Error::Io`] where
+/// nothing may be written.
 pub fn check_output(path: &Path) -> Result<()> {
-    Format::of(path).map(|_| ())
+    match Format::of(path)? {
+        Format::Csv => {
+            csv::TABLES.iter().try_for_each(|name| file::check_place(&table(path, name)))
+        }
+        _ => file::check_place(path),
+    }
 }

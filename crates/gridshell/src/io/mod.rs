@@ -39,7 +39,7 @@ mod xlsx;
 
 pub use choice::Choice;
 pub use document::{Document, PlaceRecord, SCHEMA};
-pub use file::replace;
+pub use file::{check_place, replace};
 pub use format::{Format, check_output, write};
 pub use grid_file::GridFile;
 pub use lines::{read_anchors, read_guides};
