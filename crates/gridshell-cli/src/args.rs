@@ -1,7 +1,7 @@
 //! The arguments.
 
 use crate::picture::colour::Coloring;
-use crate::picture::scene::Labels;
+use crate::picture::label::Labels;
 use crate::picture::sheet::{Paper, Sheet};
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use gridshell::io::{Choice, LengthUnit, Opening};
@@ -240,7 +240,7 @@ pub struct Draw {
     /// Whose numbers are written beside them, as in the schedules; parted by commas.
     #[arg(long, value_enum, value_delimiter = ',')]
     pub labels: Vec<Labels>,
-    /// The paper, in landscape.
+    /// The paper, in landscape; `none` makes a small picture.
     #[arg(long, value_enum, default_value = "a1")]
     pub paper: Paper,
 }

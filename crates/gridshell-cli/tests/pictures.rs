@@ -35,12 +35,18 @@ fn text(folder: &TempDir, name: &str) -> String {
 #[test]
 fn every_view_and_every_colour_gives_a_sheet_in_every_format() {
     let folder = dome();
-    for view in ["plan", "top", "front", "iso", "elevations"] {
+    for view in ["plan", "top", "front", "iso", "elevations", "perspective"] {
         done(folder.path(), &format!("draw dome.gridshell --view {view} --paper a4 -o {view}.svg"));
         let svg = text(&folder, &format!("{view}.svg"));
         assert!(svg.contains("width=\"297mm\" height=\"210mm\""), "{view}");
         assert!(svg.contains("Fluency") || svg.contains("fluency"), "{view}: figures");
-        assert!(svg.contains(">1:"), "{view}: a scale");
+        assert_eq!(svg.contains(">1:"), view != "perspective", "{view}: a scale");
+        done(
+            folder.path(),
+            &format!("draw dome.gridshell --view {view} --paper none -o small.svg"),
+        );
+        let svg = text(&folder, "small.svg");
+        assert!(svg.contains("width=\"760\"") && !svg.contains("luency"), "{view}: no sheet");
     }
     assert_eq!(text(&folder, "plan.svg"), text(&folder, "top.svg"));
     for colour in ["length", "degree", "disfluency", "shape", "none"] {
@@ -69,6 +75,88 @@ fn every_element_gets_its_number() {
         assert!(svg.contains(&format!(">{letter}{}<", count - 1)), "{letter}");
         assert!(!svg.contains(&format!(">{letter}{count}<")), "{letter}");
     }
+}
+
+/// A label's corners: in the middle of its place, by the widths of Helvetica, turned as the sheet says.
+fn corners(line: &str) -> Option<[[f64; 2]; 4]> {
+    let number = |name: &str| line.split(name).nth(1)?.split(['"', ' ', ')']).next()?.parse().ok();
+    let words = line.split('>').nth(1)?.split('<').next()?;
+    let width = match (words.chars().next()?, words.len() - 1) {
+        ('N', digits) => 0.722 + 0.556 * digits as f64,
+        ('M', digits) => 0.833 + 0.556 * digits as f64,
+        ('P', digits) => 0.667 + 0.556 * digits as f64,
+        _ => return None,
+    };
+    words[1..].parse::<usize>().ok()?;
+    let size: f64 = number("font-size=\"")?;
+    let at: [f64; 2] = [number("x=\"")?, number(" y=\"")?];
+    let at = [at[0], at[1] - 0.36 * size];
+    let turn = number("rotate(").map_or(0.0, f64::to_radians);
+    let [x, y] = [0.5 * width * size, 0.36 * size];
+    let turned = |[x, y]: [f64; 2]| {
+        [at[0] + x * turn.cos() - y * turn.sin(), at[1] + x * turn.sin() + y * turn.cos()]
+    };
+    Some([[-x, -y], [x, -y], [x, y], [-x, y]].map(turned))
+}
+
+/// Whether two rectangles share a place: no side of either parts them.
+fn touch(a: &[[f64; 2]; 4], b: &[[f64; 2]; 4]) -> bool {
+    let sides = |r: &[[f64; 2]; 4]| [[r[0], r[1]], [r[1], r[2]]];
+    sides(a).into_iter().chain(sides(b)).all(|[p, q]| {
+        let along = [q[0] - p[0], q[1] - p[1]];
+        let span = |r: &[[f64; 2]; 4]| {
+            let places = r.map(|c| c[0] * along[0] + c[1] * along[1]);
+            let low = places.iter().copied().fold(f64::INFINITY, f64::min);
+            (low, places.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+        };
+        let ((a, b), (c, d)) = (span(a), span(b));
+        a < d && c < b
+    })
+}
+
+#[test]
+fn labels_of_all_kinds_do_not_touch_one_another() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    // The dome's rim is steep: seen from above, its panels are slivers.
+    for (surface, allowed) in [("saddle", 0.0), ("hexagon", 0.0), ("dome", 0.03)] {
+        let lay = format!("generate {surface} --nodes 150 --effort draft -o g.gridshell");
+        done(folder.path(), &lay);
+        for view in ["plan", "iso"] {
+            let draw =
+                format!("draw g.gridshell --view {view} --labels nodes,members,panels -o l.svg");
+            done(folder.path(), &draw);
+            let svg = text(&folder, "l.svg");
+            let labels: Vec<_> = svg.lines().filter_map(corners).collect();
+            let touching = (0..labels.len())
+                .filter(|&k| labels[..k].iter().any(|other| touch(&labels[k], other)))
+                .count();
+            let most = allowed * labels.len() as f64;
+            let told = format!("{surface}, {view}: {touching} of {}", labels.len());
+            assert!(labels.len() > 200 && touching as f64 <= most, "{told}");
+        }
+    }
+}
+
+#[test]
+fn what_is_hidden_has_no_label() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    done(folder.path(), "generate sphere --nodes 150 --effort draft -o g.gridshell");
+    done(folder.path(), "draw g.gridshell --labels nodes -o l.svg");
+    let labels = text(&folder, "l.svg").lines().filter_map(corners).count();
+    assert!((50..100).contains(&labels), "{labels} of about 150: the upper half");
+}
+
+#[test]
+fn a_name_in_any_tongue_is_on_the_sheet() {
+    let folder = dome();
+    let grid =
+        text(&folder, "dome.gridshell").replace("\"name\": \"dome\"", "\"name\": \"Θόλος Łódź ü\"");
+    fs::write(folder.path().join("name.gridshell"), grid).expect("written");
+    done(folder.path(), "draw name.gridshell --paper a4 -o n.svg -o n.png -o n.pdf");
+    assert!(text(&folder, "n.svg").contains("Θόλος Łódź ü"));
+    done(folder.path(), "draw dome.gridshell --paper a4 -o d.png");
+    let read = |name: &str| fs::read(folder.path().join(name)).expect("written");
+    assert!(read("n.png") != read("d.png"));
 }
 
 #[test]
@@ -114,6 +202,23 @@ fn a_report_needs_nothing_else_and_holds_the_whole_run() {
         assert!(page.contains(part), "{part}");
     }
     assert!(page.len() < 1_000_000, "{} bytes", page.len());
+}
+
+#[test]
+fn a_report_tells_candidates_symmetry_and_parts() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let args = "generate dome --nodes 120 --effort draft --candidates 3 --symmetry x --report a.html -o a.obj";
+    done(folder.path(), args);
+    let page = text(&folder, "a.html");
+    assert!(page.contains("Candidates: ") && page.contains("Symmetric: 1 mirror plane"));
+    assert!(!page.contains("<h2>Parts"));
+    let square = |x: f64| format!("v {x} 0 0\nv {} 0 0\nv {} 4 0\nv {x} 4 0\n", x + 4.0, x + 4.0);
+    let two = square(0.0) + &square(9.0) + "f 1 2 3 4\nf 5 6 7 8\n";
+    fs::write(folder.path().join("two.obj"), two).expect("written");
+    let args = "generate two.obj --part all -l 1 --effort draft --report b.html -o b.obj";
+    done(folder.path(), args);
+    let page = text(&folder, "b.html");
+    assert!(page.contains("<h2>Parts") && page.contains("N0 to N"));
 }
 
 #[test]

@@ -40,14 +40,28 @@ pub fn colours(
         let left = x + k as f64 * step;
         let high = BARS * size * count as f64 / most;
         drawing.rectangle([left + 0.06 * step, ground - high], [0.88 * step, high], *rgb);
-        drawing.rectangle([left, ground + 0.4 * size], [step, STRIP * size], *rgb);
         if count > 0 {
             let at = [left + 0.5 * step, ground - high - 0.5 * size];
             let small = (0.62 * size).min(0.4 * step);
             drawing.text(at, &count.to_string(), small, INK, Anchor::Middle);
         }
     }
-    let y = ground + (0.4 + STRIP + 1.0) * size;
+    strip(drawing, scale, [x, ground + 0.4 * size], width, size)
+}
+
+/// The colours of a scale in a row, and below it what they stand for; gives where it ends.
+pub fn strip(
+    drawing: &mut Drawing,
+    scale: &Scale,
+    [x, top]: [f64; 2],
+    width: f64,
+    size: f64,
+) -> f64 {
+    let step = width / scale.steps.len() as f64;
+    for (k, rgb) in scale.steps.iter().enumerate() {
+        drawing.rectangle([x + k as f64 * step, top], [step, STRIP * size], *rgb);
+    }
+    let y = top + (STRIP + 1.0) * size;
     for (at, text) in &scale.labels {
         let anchor = match *at {
             a if a <= 0.0 => Anchor::Start,

@@ -8,13 +8,17 @@ pub mod colour;
 pub mod drawing;
 pub mod frame;
 mod glyphs;
+mod hidden;
+pub mod label;
 mod legend;
 mod light;
 mod model;
+mod palette;
 mod pdf;
 mod png;
 pub mod scene;
 pub mod sheet;
+mod small;
 pub mod svg;
 pub mod view;
 
@@ -36,7 +40,8 @@ pub fn legend_of(scale: &colour::Scale) -> String {
 
 /// Whether a picture can be drawn to this file: to be asked before the work.
 pub fn check(file: &Path) -> Result<(), Failure> {
-    kind(file).map(|_| ())
+    kind(file)?;
+    io::check_place(file).map_err(Failure::of_output)
 }
 
 /// Draw a model to a file.

@@ -1,6 +1,6 @@
 //! A drawing as PDF of one page, in the base font Helvetica.
 
-use super::drawing::{Drawing, GROUND, Mark, Rgb, Unit};
+use super::drawing::{Drawing, GROUND, Mark, Rgb, Text, Unit};
 use super::glyphs;
 use gridshell::math::trig;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
@@ -56,20 +56,35 @@ fn marks(drawing: &Drawing, scale: f64) -> Vec<u8> {
                 trace(&mut page, points);
                 page.stroke();
             }
-            Mark::Text(text) => {
-                let turn = text.turn_deg.to_radians();
-                let (sin, cos) = (trig::sin(turn), trig::cos(turn));
-                let (x, y) = (glyphs::start(text), GROUND * text.size);
-                let at = [text.at[0] + x * cos + y * sin, text.at[1] - x * sin + y * cos];
-                let [r, g, b] = narrow(&text.rgb);
-                page.begin_text().set_font(FONT, text.size as f32).set_fill_rgb(r, g, b);
-                let [a, b, c, d] = [cos, -sin, -sin, -cos].map(|x| x as f32);
-                page.set_text_matrix([a, b, c, d, at[0] as f32, at[1] as f32]);
-                page.show(Str(&latin(&text.words))).end_text();
-            }
+            Mark::Text(text) => match latin(&text.words) {
+                Some(words) => write(&mut page, text, &words),
+                None => stroke(&mut page, text),
+            },
         }
     }
     page.finish().to_vec()
+}
+
+fn write(page: &mut Content, text: &Text, words: &[u8]) {
+    let turn = text.turn_deg.to_radians();
+    let (sin, cos) = (trig::sin(turn), trig::cos(turn));
+    let (x, y) = (glyphs::start(text), GROUND * text.size);
+    let at = [text.at[0] + x * cos + y * sin, text.at[1] - x * sin + y * cos];
+    let [r, g, b] = narrow(&text.rgb);
+    page.begin_text().set_font(FONT, text.size as f32).set_fill_rgb(r, g, b);
+    let [a, b, c, d] = [cos, -sin, -sin, -cos].map(|x| x as f32);
+    page.set_text_matrix([a, b, c, d, at[0] as f32, at[1] as f32]);
+    page.show(Str(words)).end_text();
+}
+
+/// A text that the font has no letters for, as strokes.
+fn stroke(page: &mut Content, text: &Text) {
+    let [r, g, b] = narrow(&text.rgb);
+    page.set_stroke_rgb(r, g, b).set_line_width((glyphs::PEN * text.size) as f32);
+    for points in glyphs::strokes(text) {
+        trace(page, &points);
+        page.stroke();
+    }
 }
 
 fn trace(page: &mut Content, points: &[[f64; 2]]) {
@@ -89,12 +104,9 @@ fn narrow(rgb: &Rgb) -> [f32; 3] {
     rgb.map(|x| ((x * 255.0).round() / 255.0) as f32)
 }
 
-/// The text in the encoding of the font; what it has not becomes a question mark.
-fn latin(text: &str) -> Vec<u8> {
-    let byte = |c: char| match u8::try_from(u32::from(c)) {
-        Ok(b) if !(127..160).contains(&b) => b,
-        _ => b'?',
-    };
+/// The text in the encoding of the font, if it has all its letters.
+fn latin(text: &str) -> Option<Vec<u8>> {
+    let byte = |c: char| u8::try_from(u32::from(c)).ok().filter(|b| !(127..160).contains(b));
     text.chars().map(byte).collect()
 }
 

@@ -2,13 +2,12 @@
 
 use super::drawing::{Drawing, Mark, Rgb, Unit};
 use super::glyphs;
+use super::palette::{self, Indexed};
 use crate::failure::Failure;
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform,
 };
 
-/// Pen width of characters over their size.
-const PEN: f64 = 0.1;
 /// Pixels of a millimetre: 150 to the inch.
 const PIXELS: f64 = 150.0 / 25.4;
 
@@ -27,12 +26,36 @@ pub fn encode(drawing: &Drawing) -> Result<Vec<u8>, Failure> {
             Mark::Line { points, width, rgb } => canvas.stroke(points, *width, rgb),
             Mark::Text(text) => {
                 for points in glyphs::strokes(text) {
-                    canvas.stroke(&points, PEN * text.size, &text.rgb);
+                    canvas.stroke(&points, glyphs::PEN * text.size, &text.rgb);
                 }
             }
         }
     }
-    canvas.pixels.encode_png().map_err(Failure::other)
+    packed(&canvas.pixels, drawing.unit).map_err(Failure::other)
+}
+
+/// The file: colours by numbers, and how large it is on paper.
+fn packed(pixels: &Pixmap, unit: Unit) -> Result<Vec<u8>, png::EncodingError> {
+    let Indexed { palette, pixels: numbers } = palette::indexed(pixels.data());
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_palette(palette.concat());
+    // Neighbouring numbers are no neighbouring colours, so differences between pixels tell nothing.
+    encoder.set_filter(png::FilterType::NoFilter);
+    if unit == Unit::Millimetre {
+        let per_metre = (1000.0 * PIXELS).round() as u32;
+        let unit = png::Unit::Meter;
+        encoder.set_pixel_dims(Some(png::PixelDimensions {
+            xppu: per_metre,
+            yppu: per_metre,
+            unit,
+        }));
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&numbers)?;
+    writer.finish()?;
+    Ok(bytes)
 }
 
 struct Canvas {

@@ -1,24 +1,12 @@
 //! A grid as it is seen: panels, members and nodes from the farthest to the nearest.
 
 use super::colour::Colours;
-use super::drawing::{Anchor, Drawing, Mark, Rgb, Text};
+use super::drawing::{Drawing, Rgb};
 use super::frame::Frame;
+use super::label::Labels;
 use super::light::lit;
 use super::view::{Camera, View};
 use crate::subject::Subject;
-use clap::ValueEnum;
-use gridshell::math::trig;
-
-/// What is written beside the elements.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Labels {
-    /// N0, N1, ... as in schedules.
-    Nodes,
-    /// M0, M1, ...
-    Members,
-    /// P0, P1, ...
-    Panels,
-}
 
 /// One thing to be drawn.
 #[derive(Clone, Copy)]
@@ -34,8 +22,6 @@ pub struct Style {
     pub member: f64,
     /// Radius of marked nodes.
     pub node: f64,
-    /// Height of labels.
-    pub label: f64,
 }
 
 /// Members and nodes lie this share of the mean member length before the panels beside them.
@@ -47,8 +33,6 @@ pub const MEMBER: Rgb = [0.42, 0.44, 0.46];
 pub const INK: Rgb = [0.10, 0.11, 0.12];
 pub const PAPER: Rgb = [1.0, 1.0, 1.0];
 pub const SUPPORT: Rgb = [0.05, 0.45, 0.30];
-const OF_MEMBERS: Rgb = [0.10, 0.25, 0.60];
-const OF_PANELS: Rgb = [0.45, 0.30, 0.10];
 
 impl Style {
     /// What suits members of this mean length on paper, on a sheet whose type is `type_size` high.
@@ -56,21 +40,15 @@ impl Style {
         Style {
             member: (0.045 * member_length).clamp(0.04 * type_size, 0.17 * type_size),
             node: (0.13 * member_length).clamp(0.12 * type_size, 0.6 * type_size),
-            label: (0.16 * member_length).clamp(0.1 * type_size, type_size),
         }
     }
 
-    /// Finer lines and smaller type, so that these labels can be read.
+    /// Finer lines, so that labels beside them can be read.
     pub fn beside(self, labels: &[Labels]) -> Style {
-        match labels.len() {
-            0 => self,
-            1 => Style { member: 0.45 * self.member, node: 0.7 * self.node, ..self },
-            _ => Style {
-                member: 0.3 * self.member,
-                node: 0.55 * self.node,
-                label: 0.78 * self.label,
-            },
+        if labels.is_empty() {
+            return self;
         }
+        Style { member: 0.45 * self.member, node: 0.55 * self.node }
     }
 }
 
@@ -168,55 +146,4 @@ fn supported(subject: &Subject) -> Vec<bool> {
         supported[v as usize] = true;
     }
     supported
-}
-
-/// Write the numbers of elements.
-pub fn label(
-    subject: &Subject,
-    labels: &[Labels],
-    camera: &Camera,
-    frame: &Frame,
-    style: &Style,
-    drawing: &mut Drawing,
-) {
-    let schedule = subject.schedule;
-    let place = |v: u32| frame.place(camera.see(schedule.nodes.xyz[v as usize]));
-    let size = style.label;
-    let mut write = |at: [f64; 2], words: String, rgb: Rgb, turn_deg: f64| {
-        drawing.marks.push(Mark::Text(Text {
-            at,
-            words,
-            size,
-            rgb,
-            anchor: Anchor::Middle,
-            turn_deg,
-        }));
-    };
-    if labels.contains(&Labels::Panels) {
-        for (k, t) in schedule.panels.nodes.iter().enumerate() {
-            let p = t.map(place);
-            let at = [0, 1].map(|i| (p[0][i] + p[1][i] + p[2][i]) / 3.0);
-            write(at, format!("P{k}"), OF_PANELS, 0.0);
-        }
-    }
-    if labels.contains(&Labels::Members) {
-        for (k, ends) in schedule.members.ends.iter().enumerate() {
-            let [a, b] = ends.map(place);
-            // From left to right, so that no number stands on its head.
-            let (a, b) = if a[0] <= b[0] { (a, b) } else { (b, a) };
-            let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-            let length = (dx * dx + dy * dy).sqrt().max(f64::MIN_POSITIVE);
-            let up = 0.62 * size / length;
-            let at = [f64::midpoint(a[0], b[0]) + dy * up, f64::midpoint(a[1], b[1]) - dx * up];
-            write(at, format!("M{k}"), OF_MEMBERS, trig::atan2(-dy, dx).to_degrees());
-        }
-    }
-    if labels.contains(&Labels::Nodes) {
-        for v in 0..schedule.nodes.xyz.len() {
-            let [x, y] = place(v as u32);
-            let text = format!("N{v}");
-            let aside = 0.5 * super::glyphs::length(&text, size) + 0.5 * size;
-            write([x + aside, y - 0.75 * size], text, INK, 0.0);
-        }
-    }
 }

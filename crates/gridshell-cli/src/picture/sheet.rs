@@ -3,9 +3,10 @@
 use super::colour::{Coloring, Colours};
 use super::drawing::{Anchor, Drawing, Unit};
 use super::frame::{Extent, Frame};
-use super::scene::{self, INK, Labels, Style};
+use super::label::{self, Labels};
+use super::scene::{self, INK, Style};
 use super::view::{Camera, View};
-use super::{glyphs, legend};
+use super::{glyphs, legend, small};
 use crate::facts::facts;
 use crate::subject::Subject;
 use clap::ValueEnum;
@@ -22,6 +23,8 @@ pub enum Sheet {
     Iso,
     /// From the front, the right, the back and the left.
     Elevations,
+    /// As one sees it from the front, the left and above: not to scale.
+    Perspective,
 }
 
 /// Paper in landscape.
@@ -32,6 +35,8 @@ pub enum Paper {
     A2,
     A3,
     A4,
+    /// A small picture without border, title and figures, for pages and messages.
+    None,
 }
 
 /// What is asked of a sheet.
@@ -53,7 +58,7 @@ const LINE: f64 = 6.2;
 const THICK: f64 = 0.5;
 const THIN: f64 = 0.18;
 /// Nodes whose colours matter are so much larger.
-const COLOURED_NODES: f64 = 1.6;
+pub const COLOURED_NODES: f64 = 1.6;
 /// What is added to a view for the width of its marks, over the size of type.
 const ROOM_FOR_MARKS: f64 = 1.5;
 /// Denominators that rulers have, ascending, to be had times powers of ten; and those of enlargements.
@@ -61,36 +66,28 @@ const SCALES: [f64; 7] = [1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 7.5];
 const ENLARGED: [f64; 3] = [1.0, 2.0, 5.0];
 
 impl Paper {
-    /// Width and height, millimetres.
-    fn size(self) -> [f64; 2] {
+    /// Width and height, millimetres; and the size of type and of all that goes with it, over that on A1: smaller paper is
+    /// read from nearer. None for no paper.
+    fn size(self) -> Option<([f64; 2], f64)> {
         match self {
-            Paper::A0 => [1189.0, 841.0],
-            Paper::A1 => [841.0, 594.0],
-            Paper::A2 => [594.0, 420.0],
-            Paper::A3 => [420.0, 297.0],
-            Paper::A4 => [297.0, 210.0],
-        }
-    }
-
-    /// Size of type and of all that goes with it, over that on A1: smaller paper is read from nearer.
-    fn factor(self) -> f64 {
-        match self {
-            Paper::A0 => 1.25,
-            Paper::A1 => 1.0,
-            Paper::A2 => 0.8,
-            Paper::A3 => 0.64,
-            Paper::A4 => 0.52,
+            Paper::A0 => Some(([1189.0, 841.0], 1.25)),
+            Paper::A1 => Some(([841.0, 594.0], 1.0)),
+            Paper::A2 => Some(([594.0, 420.0], 0.8)),
+            Paper::A3 => Some(([420.0, 297.0], 0.64)),
+            Paper::A4 => Some(([297.0, 210.0], 0.52)),
+            Paper::None => None,
         }
     }
 }
 
 impl Sheet {
-    fn views(self) -> &'static [View] {
+    pub fn views(self) -> &'static [View] {
         match self {
             Sheet::Plan => &[View::Plan],
             Sheet::Front => &[View::Front],
             Sheet::Iso => &[View::Isometric],
             Sheet::Elevations => &[View::Front, View::Right, View::Back, View::Left],
+            Sheet::Perspective => &[View::Perspective],
         }
     }
 
@@ -100,15 +97,15 @@ impl Sheet {
             Sheet::Front => "Front",
             Sheet::Iso => "Isometric",
             Sheet::Elevations => "Elevations",
+            Sheet::Perspective => "Perspective",
         }
     }
 }
 
-/// Draw a sheet.
+/// Draw a sheet, or a picture where there is no paper.
 pub fn sheet(subject: &Subject, wish: &Wish) -> Drawing {
-    let (paper, f) = (wish.paper.size(), wish.paper.factor());
-    let name = wish.sheet.name();
-    let title = format!("{}: {}", subject.name(), name.to_lowercase());
+    let title = format!("{}: {}", subject.name(), wish.sheet.name().to_lowercase());
+    let Some((paper, f)) = wish.paper.size() else { return small::picture(subject, wish, title) };
     let mut drawing = Drawing::new(paper, Unit::Millimetre, title);
     let inner = [paper[0] - 2.0 * MARGIN * f, paper[1] - 2.0 * MARGIN * f];
     let split = paper[0] - (MARGIN + COLUMN) * f;
@@ -129,7 +126,7 @@ pub fn sheet(subject: &Subject, wish: &Wish) -> Drawing {
     for ((view, camera, extent), cell) in views.iter().zip(&cells) {
         let frame = Frame::centred(extent, scale, cell.at, cell.room);
         scene::draw(subject, &colours, *view, camera, &frame, &style, &mut drawing);
-        scene::label(subject, wish.labels, camera, &frame, &style, &mut drawing);
+        label::draw(subject, wish.labels, &colours, camera, &frame, TYPE * f, &mut drawing);
         if views.len() > 1 {
             let foot = cell.at[1] + 0.5 * (cell.room[1] + scale * extent.size()[1]);
             let below = [cell.at[0] + 0.5 * cell.room[0], foot + 3.0 * TYPE * f];
@@ -138,7 +135,9 @@ pub fn sheet(subject: &Subject, wish: &Wish) -> Drawing {
         }
     }
     let ground = paper[1] - (MARGIN + 0.45 * FOOT) * f;
-    legend::scale_bar(&mut drawing, [at[0], ground], scale, f * TYPE, 0.4 * room[0]);
+    if wish.sheet != Sheet::Perspective {
+        legend::scale_bar(&mut drawing, [at[0], ground], scale, f * TYPE, 0.4 * room[0]);
+    }
     if wish.sheet == Sheet::Plan {
         legend::axes(
             &mut drawing,
@@ -151,7 +150,8 @@ pub fn sheet(subject: &Subject, wish: &Wish) -> Drawing {
     drawing
 }
 
-fn seen(subject: &Subject, view: View) -> (View, Camera, Extent) {
+/// What a view shows.
+pub fn seen(subject: &Subject, view: View) -> (View, Camera, Extent) {
     let points = &subject.schedule.nodes.xyz;
     let camera = view.camera(points);
     let extent = Extent::of(&camera, points);
@@ -272,13 +272,15 @@ fn title(
     drawing: &mut Drawing,
 ) {
     let name = if subject.name().is_empty() { "Grid" } else { subject.name() };
-    let parallel = match wish.sheet {
-        Sheet::Iso => " in the plane of the picture",
-        _ => "",
+    let to_scale = told((1000.0 / scale * 1e9).round() / 1e9);
+    let to_scale = match wish.sheet {
+        Sheet::Iso => to_scale + " in the plane of the picture",
+        Sheet::Perspective => "none: a perspective".to_owned(),
+        _ => to_scale,
     };
     let seed = subject.document.seed.map_or("-".to_owned(), |s| s.to_string());
     let rows = [
-        ("Scale", told((1000.0 / scale * 1e9).round() / 1e9) + parallel),
+        ("Scale", to_scale),
         ("Units", "metres, degrees".to_owned()),
         ("Paper", format!("{:?}", wish.paper)),
         ("Seed", seed),

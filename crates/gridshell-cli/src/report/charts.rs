@@ -19,10 +19,10 @@ pub fn section(subject: &Subject) -> String {
     let charts = [
         chart("Length of members, m", &f.length.spread, 3),
         chart("Shape q of panels", &f.panel.shape, 3),
-        chart("Area of panels, m2", &f.panel.area, 3),
-        chart("Angles of panels at nodes, deg", &f.angle_deg, 1),
-        chart("Folds between panels, deg", &f.fold_deg, 2),
-        chart("Twist of nodes along members, deg", &f.twist_deg, 2),
+        chart("Area of panels, m²", &f.panel.area, 3),
+        chart("Angles of panels at nodes, °", &f.angle_deg, 1),
+        chart("Folds between panels, °", &f.fold_deg, 2),
+        chart("Twist of nodes along members, °", &f.twist_deg, 2),
     ];
     format!(
         "<section><h2>How values spread</h2><div class=\"charts\">{}</div></section>",

@@ -13,7 +13,7 @@ use crate::picture::svg::escaped;
 use crate::picture::view::View;
 use crate::subject::Subject;
 use gridshell::io;
-use gridshell::run::Run;
+use gridshell::run::{Run, SurfaceSummary};
 use std::path::Path;
 
 pub use pictures::{Colored, plan, style};
@@ -29,18 +29,12 @@ pub const COLORINGS: [(&str, &str, Coloring); 5] = [
     ("none", "none", Coloring::None),
 ];
 
-/// Refuse a file that is no page, or has no folder, before the work is done.
+/// Refuse a file that is no page, or cannot be written, before the work is done.
 pub fn check(file: &Path) -> Result<(), Failure> {
-    let html = file.extension().is_some_and(|e| e.eq_ignore_ascii_case("html"));
-    let folder = file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    match (html, folder.is_dir()) {
-        (false, _) => Err(Failure::usage(format!("{}: a page must end in .html", file.display()))),
-        (_, false) => {
-            let (file, folder) = (file.display(), folder.display());
-            Err(Failure::usage(format!("{file}: there is no folder {folder}")))
-        }
-        _ => Ok(()),
+    if !file.extension().is_some_and(|e| e.eq_ignore_ascii_case("html")) {
+        return Err(Failure::usage(format!("{}: a page must end in .html", file.display())));
     }
+    io::check_place(file).map_err(Failure::of_output)
 }
 
 /// Write a page; it appears whole or not at all.
@@ -62,12 +56,13 @@ pub fn page(subject: &Subject, run: Option<&Run>) -> String {
         let picture = pictures::picture(subject, &colored, view);
         body += &format!("<figure>{picture}<figcaption>{caption}</figcaption></figure>");
     }
-    body += "</div><p class=\"note\">Black nodes have too few members, white ones too many. The pictures take their \
-             colours from the choice above.</p></section>";
+    body += "</div><p class=\"note\">Black nodes have too few members, white ones too many. <span class=\"screen\">The pictures take \
+             their colours from the choice above.</span></p></section>";
     body += &measures::section(subject);
     body += &charts::section(subject);
     body += &tables::figures(subject);
     if let Some(run) = run {
+        body += &tables::parts(run);
         body += &tables::stages(run);
     }
     body += &tables::lengths(subject);
@@ -108,18 +103,35 @@ fn header(subject: &Subject, run: Option<&Run>) -> String {
         tile(f.panel.distinct.to_string(), "kinds of panels"),
     ];
     let seed = subject.document.seed.map_or(String::new(), |s| format!(" Seed {s}."));
+    let surface = run.map_or(String::new(), |run| surface(&run.surface));
+    let symmetry = run.and_then(|run| run.symmetry.as_ref());
+    let symmetry = symmetry.map_or(String::new(), |s| format!(" Symmetric: {}.", s.told()));
     let took = run.map_or(String::new(), |run| {
         let seconds: f64 = run.stages.iter().map(|s| s.seconds).sum();
         format!(" Made in {seconds:.1} s.")
     });
     format!(
-        "<header><h1>{}</h1><p>Triangular grid of members about {:.3} m long, by gridshell {}.{seed}{took}</p>\
+        "<header><h1>{}</h1><p>Triangular grid of members about {:.3} m long{surface}, by gridshell \
+         {}.{seed}{symmetry}{took}</p>\
          <div class=\"tiles\">{}</div></header>",
         escaped(subject.name()),
         subject.edge_length,
         escaped(&subject.document.version),
         tiles.concat()
     )
+}
+
+/// The design surface in a few words.
+fn surface(s: &SurfaceSummary) -> String {
+    let counted =
+        |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
+    let patches = match s.patches {
+        0 => "a mesh".to_owned(),
+        n => counted(n, "patch", "patches"),
+    };
+    let size = [0, 1, 2].map(|k| format!("{:.1}", s.bounds.max[k] - s.bounds.min[k])).join(" × ");
+    let loops = counted(s.loops, "boundary", "boundaries");
+    format!(" on a surface of {:.1} m² ({patches}, {loops}, {size} m)", s.area)
 }
 
 fn warnings(run: Option<&Run>) -> String {

@@ -3,7 +3,8 @@
 use crate::facts::facts;
 use crate::picture::svg::escaped;
 use crate::subject::Subject;
-use gridshell::run::Run;
+use gridshell::recipe::Start;
+use gridshell::run::{CandidateReport, PartReport, Run, SymmetryReport};
 
 /// Longer lists are cut.
 const MOST_ROWS: usize = 200;
@@ -46,7 +47,7 @@ pub fn stages(run: &Run) -> String {
                 format!("{:.4}", q.shape.mean),
                 format!("{:.3}", q.mu),
                 format!("{:.2}", q.delta_deg),
-                q.fluency.map_or("inf".to_owned(), |x| format!("{x:.2}")),
+                quality(q.fluency),
                 q.irregular.interior.to_string(),
                 q.irregular.boundary.to_string(),
             ]),
@@ -65,9 +66,69 @@ pub fn stages(run: &Run) -> String {
         .collect();
     let head = tr("th", &head.map(str::to_owned));
     format!(
-        "<section><h2>Stages</h2><div class=\"scroll\"><table>{head}{rows}</table></div><p class=\"note\">{}</p></section>",
-        notes.join("<br>")
+        "<section><h2>Stages</h2><div class=\"scroll\"><table>{head}{rows}</table></div><p class=\"note\">{}</p>{}</section>",
+        notes.join("<br>"),
+        candidates(run)
     )
+}
+
+/// The pieces of a grid on several parts; nothing where there is one.
+pub fn parts(run: &Run) -> String {
+    if run.parts.is_empty() {
+        return String::new();
+    }
+    let row = |part: &PartReport| {
+        let symmetry = part.symmetry.as_ref().map_or("-".to_owned(), SymmetryReport::told);
+        let nodes = format!("N{} to N{}", part.first_node, part.first_node + part.nodes - 1);
+        let cells = [part.number.to_string(), nodes, part.nodes.to_string()];
+        let further = [format!("{:.2}", part.area), quality(part.fluency), symmetry];
+        tr("td", &[cells, further].concat())
+    };
+    let rows: String = run.parts.iter().map(row).collect();
+    let head = ["part", "from node to node", "nodes", "area, m²", "Q", "symmetry"];
+    let head = tr("th", &head.map(str::to_owned));
+    format!(
+        "<section><h2>Parts</h2><div class=\"scroll\"><table>{head}{rows}</table></div></section>"
+    )
+}
+
+/// What the grid was chosen from; nothing where there was no choice.
+fn candidates(run: &Run) -> String {
+    let count = run.candidates.len();
+    if count < 2 {
+        return String::new();
+    }
+    let several = !run.parts.is_empty();
+    let row = |c: &CandidateReport| {
+        let start = match c.start {
+            Start::Lattice => "a lattice",
+            Start::Random => "random bubbles",
+        };
+        let part = several.then(|| c.part.map_or("-".to_owned(), |p| p.to_string()));
+        let cells = [
+            c.seed.to_string(),
+            start.to_owned(),
+            c.heats.to_string(),
+            format!("{:.3}", c.merit),
+            quality(c.fluency),
+            format!("{:.4}", c.cv),
+            format!("{:.3}", c.mu),
+            format!("{:.2}", c.delta_deg),
+        ];
+        tr("td", &part.into_iter().chain(cells).collect::<Vec<_>>())
+    };
+    let rows: String = run.candidates.iter().take(MOST_ROWS).map(row).collect();
+    let names = ["seed", "begun with", "heats", "merit", "Q", "r", "mu", "delta, deg"];
+    let names = several.then_some("part").into_iter().chain(names).map(str::to_owned);
+    let head = tr("th", &names.collect::<Vec<_>>());
+    let note = "<p class=\"note\">As they were when they were left behind, before relaxing; the one that was kept comes \
+                first. They are ranked by merit: fluency, held back by uneven lengths and bad borders.</p>";
+    let summary = format!("Candidates: {count}");
+    folded(&summary, &format!("<table>{head}{rows}</table>{}{note}", cut(count)))
+}
+
+fn quality(fluency: Option<f64>) -> String {
+    fluency.map_or("\u{221e}".to_owned(), |q| format!("{q:.2}"))
 }
 
 /// The groups of members to be cut alike.

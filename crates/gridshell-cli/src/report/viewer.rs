@@ -51,11 +51,11 @@ pub fn section(subject: &Subject, colored: &[Colored]) -> String {
     // No element can end the script: the text has no `<`.
     let data = serde_json::to_string(&data(subject, colored)).expect("plain data");
     format!(
-        "<section><h2>View to turn</h2><div class=\"choice\">Colours: {}\
+        "<section><h2 class=\"screen\">View to turn</h2><div class=\"choice\">Colours: {}\
          <label><input type=\"checkbox\" id=\"panels\" checked> panels</label></div>\
          <div class=\"turn\"><canvas id=\"view\" tabindex=\"0\" aria-label=\"The grid in three dimensions\"></canvas>\
          <div class=\"legends\">{}</div></div>\
-         <p class=\"note\">Drag to turn, drag with the right button or Shift to move, wheel to zoom, double click to go \
+         <p class=\"note screen\">Drag to turn, drag with the right button or Shift to move, wheel to zoom, double click to go \
          back.</p><script type=\"application/json\" id=\"grid\">{data}</script></section>",
         choice.concat(),
         legends(colored)

@@ -1,15 +1,21 @@
 //! Letters as strokes, as on technical drawings: no font is asked for. Their widths are those of Helvetica, so a text
 //! is as long in every format.
 
+mod accents;
+mod letters;
+
 use super::drawing::{Anchor, GROUND, Text};
 use gridshell::math::trig;
 
+/// Pen width of strokes over the size of the type.
+pub const PEN: f64 = 0.1;
 /// One step of the raster over the size of the type.
 const STEP: f64 = 0.08;
 /// The ground line on the raster.
 const GROUND_LINE: f64 = 3.0;
-/// Width of what is not known, thousandths of the size.
-const OTHER_WIDTH: u32 = 556;
+/// Width of a step and of the room about it, where Helvetica is not asked: thousandths of the size.
+const STEP_WIDTH: u32 = 80;
+const ROOM_WIDTH: u32 = 170;
 /// Widths from the space to the tilde, thousandths of the size.
 const WIDTHS: [u32; 95] = [
     278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556,
@@ -41,9 +47,7 @@ pub fn strokes(text: &Text) -> Vec<Vec<[f64; 2]>> {
     let mut all = Vec::new();
     let mut along = start(text);
     for c in text.words.chars() {
-        let own: Vec<Vec<[f64; 2]>> = character(c).split(';').map(points).collect();
-        let xs = || own.iter().flatten().map(|p| p[0]);
-        let wide = xs().fold(0.0, f64::max) - xs().fold(f64::INFINITY, f64::min).min(9.0);
+        let (own, wide) = character(c);
         let cell = f64::from(width(c)) * text.size / 1000.0;
         let left = along + (cell - wide * step) / 2.0;
         let place = |p: &[f64; 2]| {
@@ -57,9 +61,29 @@ pub fn strokes(text: &Text) -> Vec<Vec<[f64; 2]>> {
     all
 }
 
+/// Width of a character, thousandths of the size.
 fn width(c: char) -> u32 {
+    let c = accents::parted(c).map_or(c, |(base, _)| base);
     let k = (c as usize).wrapping_sub(' ' as usize);
-    WIDTHS.get(k).copied().unwrap_or(OTHER_WIDTH)
+    WIDTHS.get(k).copied().unwrap_or_else(|| ROOM_WIDTH + STEP_WIDTH * character(c).1 as u32)
+}
+
+/// The strokes of a character on the raster, and how wide they are without accents.
+fn character(c: char) -> (Vec<Vec<[f64; 2]>>, f64) {
+    let (base, accent) = accents::parted(c).map_or((c, None), |(base, a)| (base, Some(a)));
+    let mut strokes: Vec<_> = letters::strokes(base).split(';').map(points).collect();
+    let bound = |k: usize| {
+        let along = || strokes.iter().flatten().map(|p: &[f64; 2]| p[k]);
+        [along().fold(f64::INFINITY, f64::min), along().fold(0.0, f64::max)]
+    };
+    let ([left, right], [_, top]) = (bound(0), bound(1));
+    if let Some(accent) = accent {
+        let middle = f64::midpoint(left, right);
+        let place = |[x, y]: [f64; 2]| accent.place([x, y], middle, top);
+        let marks = accent.strokes().split(';').map(points);
+        strokes.extend(marks.map(|s| s.into_iter().map(place).collect()));
+    }
+    (strokes, right - left.min(right))
 }
 
 /// Points as pairs of hexadecimal digits x, y.
@@ -70,46 +94,6 @@ fn points(stroke: &str) -> Vec<[f64; 2]> {
         [digits.next().unwrap_or(0.0), digits.next().unwrap_or(0.0)]
     };
     stroke.split_whitespace().map(pair).collect()
-}
-
-/// A character's strokes on a raster whose ground line is 3, whose small letters reach to 9 and capitals to 12 (c).
-#[rustfmt::skip]
-fn character(c: char) -> &'static str {
-    match c {
-        ' ' => "",
-        '0' => "13 04 0b 1c 3c 4b 44 33 13", '1' => "0a 2c 23", '2' => "0b 1c 3c 4b 49 03 43",
-        '3' => "0b 1c 3c 4b 49 38 18;38 47 44 33 13 04", '4' => "33 3c 06 46",
-        '5' => "4c 0c 08 38 47 44 33 13 04", '6' => "4b 3c 1c 0b 04 13 33 44 47 38 08",
-        '7' => "0c 4c 13", '8' => "18 09 0b 1c 3c 4b 49 38 18 07 04 13 33 44 47 38",
-        '9' => "04 13 33 44 4b 3c 1c 0b 08 17 47",
-        'A' => "03 3c 63;16 56", 'B' => "03 0c 4c 5b 59 48 08;48 57 54 43 03",
-        'C' => "5b 4c 1c 0b 04 13 43 54", 'D' => "03 0c 3c 5a 55 33 03", 'E' => "5c 0c 03 53;08 48",
-        'F' => "5c 0c 03;08 48", 'G' => "5b 4c 1c 0b 04 13 43 54 57 37", 'H' => "03 0c;53 5c;08 58",
-        'I' | 'l' => "03 0c", 'J' => "04 13 33 44 4c", 'K' => "03 0c;5c 07;18 53", 'L' => "0c 03 53",
-        'M' => "03 0c 37 6c 63", 'N' => "03 0c 53 5c", 'O' => "13 04 0b 1c 4c 5b 54 43 13",
-        'P' => "03 0c 4c 5b 58 47 07", 'Q' => "13 04 0b 1c 4c 5b 54 43 13;35 62",
-        'R' => "03 0c 4c 5b 58 47 07;37 53", 'S' => "5b 4c 1c 0b 09 18 47 56 54 43 13 04",
-        'T' => "0c 6c;3c 33", 'U' => "0c 04 13 43 54 5c", 'V' => "0c 33 6c", 'W' => "0c 23 4a 63 8c",
-        'X' => "03 5c;0c 53", 'Y' => "0c 38 6c;38 33", 'Z' => "0c 5c 03 53",
-        'a' => "49 43;48 39 19 08 04 13 33 44", 'b' => "0c 03;04 13 33 44 48 39 19 08",
-        'c' => "48 39 19 08 04 13 33 44", 'd' => "4c 43;44 33 13 04 08 19 39 48",
-        'e' => "06 46 48 39 19 08 04 13 33 44", 'f' => "3c 2c 1b 13;09 39",
-        'g' => "49 41 30 10 01;48 39 19 08 04 13 33 44", 'h' => "0c 03;08 19 39 48 43",
-        'i' => "03 09;0b 0c", 'j' => "29 21 10 00;2b 2c", 'k' => "0c 03;49 05;16 43",
-        'm' => "03 09;08 19 29 38 33;38 49 59 68 63", 'n' => "03 09;08 19 39 48 43",
-        'o' => "13 04 08 19 39 48 44 33 13", 'p' => "00 09;08 19 39 48 44 33 13 04",
-        'q' => "40 49;48 39 19 08 04 13 33 44", 'r' => "03 09;07 29 39",
-        's' => "48 39 19 08 07 16 36 45 44 33 13 04", 't' => "1c 14 23 33;09 39",
-        'u' => "09 04 13 33 44;49 43", 'v' => "09 23 49", 'w' => "09 13 38 53 69", 'x' => "03 49;09 43",
-        'y' => "09 23;49 10 00", 'z' => "09 49 03 43",
-        '.' => "03 04", ',' => "14 02", ':' => "03 04;08 09", ';' => "14 02;18 19", '-' => "07 37",
-        '+' => "07 67;34 3a", '=' => "06 56;08 58", '/' => "02 4d", '\\' => "0d 42", '(' => "2d 0a 05 22",
-        ')' => "0d 2a 25 02", '[' => "2d 0d 02 22", ']' => "0d 2d 22 02", '<' => "4a 06 42", '>' => "0a 46 02",
-        '%' => "03 6c;0a 0c 2c 2a 0a;43 45 65 63 43", '&' => "63 1a 1b 2c 3c 4b 4a 06 04 13 33 57",
-        '#' => "13 2c;43 5c;06 66;09 69", '_' => "02 52", '!' => "05 0c;03 04", '?' => "0b 1c 3c 4b 49 27 26;23 24",
-        '*' => "36 3c;17 5b;57 1b", '\'' => "0a 0c", '"' => "0a 0c;2a 2c", '|' => "02 0d", '~' => "06 18 27 36 48",
-        _ => "03 0c 4c 43 03",
-    }
 }
 
 #[cfg(test)]
@@ -135,6 +119,22 @@ mod tests {
                 assert!((p[1] - 20.0).abs() < 7.0, "{p:?}");
             }
         }
+    }
+
+    #[test]
+    fn names_of_other_tongues_are_written_and_not_left_out() {
+        let unknown = strokes(&text("\u{4e00}", Anchor::Start, 0.0));
+        for name in
+            ["Großbölting", "Århus", "Łódź", "Čeřín", "Señor Ibáñez", "Θόλος", "μ δ ° ² × – „“ €"]
+        {
+            for c in name.chars().filter(|c| *c != ' ') {
+                let drawn = strokes(&text(&c.to_string(), Anchor::Start, 0.0));
+                assert!(!drawn.is_empty() && drawn != unknown, "{c} in {name}");
+            }
+        }
+        let marks = |s: &str| strokes(&text(s, Anchor::Start, 0.0)).len();
+        assert_eq!((marks("u"), marks("ü"), marks("ű")), (2, 4, 4));
+        assert_eq!(length("Müller", 10.0), length("Muller", 10.0));
     }
 
     #[test]
