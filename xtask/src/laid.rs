@@ -1,10 +1,8 @@
 //! A grid laid by the command: what it printed, and the grid that it wrote.
 
 use crate::build::target;
-use glam::DVec3;
 use serde_json::Value;
-use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
@@ -24,10 +22,8 @@ pub struct Order<'a> {
 pub struct Laid {
     /// The document of `--json`.
     pub document: Value,
-    /// Places of the nodes, metres.
-    pub nodes: Vec<DVec3>,
-    /// The nodes of each panel.
-    pub panels: Vec<[usize; 3]>,
+    /// The grid; the next one takes its place.
+    pub file: PathBuf,
     /// Time from start to end.
     pub seconds: f64,
 }
@@ -39,12 +35,12 @@ impl<'a> Order<'a> {
     }
 }
 
-/// Run the command `gridshell` and read what it wrote.
+/// Run the command `gridshell`.
 ///
 /// # Errors
 /// What the command says on stderr where it gives no grid.
 pub fn lay(gridshell: &Path, order: &Order) -> Result<Laid, String> {
-    let file = target().join("laid.obj");
+    let file = target().join("laid.gridshell");
     let mut command = Command::new(gridshell);
     command.args(["generate", order.surface, "--json", "--method", order.method, "--seed"]);
     command.arg(order.seed.to_string()).arg("-o").arg(&file);
@@ -56,19 +52,21 @@ pub fn lay(gridshell: &Path, order: &Order) -> Result<Laid, String> {
     let seconds = start.elapsed().as_secs_f64();
     let document = serde_json::from_slice(&run.stdout)
         .map_err(|_| String::from_utf8_lossy(&run.stderr).trim().to_owned())?;
-    let text = fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
-    let (mut nodes, mut panels) = (Vec::new(), Vec::new());
-    for line in text.lines() {
-        match line.split_once(' ') {
-            Some(("v", rest)) => nodes.push(DVec3::from(triple::<f64>(rest)?)),
-            Some(("f", rest)) => panels.push(triple::<usize>(rest)?.map(|k| k - 1)),
-            _ => {}
-        }
-    }
-    Ok(Laid { document, nodes, panels, seconds })
+    Ok(Laid { document, file, seconds })
 }
 
-fn triple<T: std::str::FromStr>(text: &str) -> Result<[T; 3], String> {
-    let items: Vec<T> = text.split_whitespace().filter_map(|w| w.parse().ok()).collect();
-    items.try_into().map_err(|_| "a line of the grid without three numbers".to_owned())
+impl Laid {
+    /// Draw the grid to a file.
+    ///
+    /// # Errors
+    /// What the command says.
+    pub fn draw(&self, gridshell: &Path, options: &[&str], picture: &Path) -> Result<(), String> {
+        let mut command = Command::new(gridshell);
+        command.arg("draw").arg(&self.file).args(options).arg("-o").arg(picture);
+        let run = command.output().map_err(|e| e.to_string())?;
+        if run.status.success() {
+            return Ok(());
+        }
+        Err(String::from_utf8_lossy(&run.stderr).trim().to_owned())
+    }
 }

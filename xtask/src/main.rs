@@ -9,7 +9,6 @@ mod check;
 mod fuzz;
 mod laid;
 mod page;
-mod picture;
 mod quality;
 mod readers;
 mod watched;
@@ -30,7 +29,8 @@ usage: cargo xtask CHORE
                           the figures of all grids against their bars, into docs/quality.md unless only
                           some are named; --cases: on STEP files, --quick: one seed
   pictures [--cases FOLDER] [NAME]...
-                          a plan and a perspective of each of these grids, into docs/gallery
+                          a plan and a perspective of each of these grids into docs/gallery, and the page
+                          docs/gallery.md unless only some are named
   picture SURFACE FILE    a grid on SURFACE seen from above, as a PNG
   fuzz [READER]... [--minutes N]
                           damaged files for every reader (or these), 15 minutes each; needs the nightly
@@ -44,10 +44,10 @@ fn main() -> ExitCode {
         ["test"] => check::lint().and_then(|()| check::test()),
         ["readers"] => check::readers(),
         ["cases", folder, names @ ..] => cases::run(folder.as_ref(), names),
-        ["picture", surface, file] => picture::plan(surface, file.as_ref()),
+        ["picture", surface, file] => quality::picture(surface, file.as_ref()),
         ["fuzz", rest @ ..] => fuzz::Plan::parse(rest).and_then(|plan| fuzz::run(&plan)),
         ["bench", "quality", rest @ ..] => Scope::parse(rest).and_then(|s| quality::bench(&s)),
-        ["pictures", rest @ ..] => Scope::parse(rest).and_then(|s| quality::pictures(&s)),
+        ["pictures", rest @ ..] => Scope::parse(rest).and_then(|s| quality::gallery(&s)),
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::from(2);

@@ -1,13 +1,15 @@
 //! The quality of the grids: measured and held against the bars, and shown. `cargo xtask bench quality` writes
-//! `docs/quality.md`, `cargo xtask pictures` the pictures in it.
+//! `docs/quality.md`, `cargo xtask pictures` the gallery.
 
 mod bars;
 mod figure;
+mod gallery;
 mod table;
+
+pub use gallery::{gallery, picture};
 
 use crate::build;
 use crate::laid::{Laid, Order, lay};
-use crate::picture::{self, View};
 use bars::{Bar, CASES, Case, EVERY, FURTHER};
 use figure::Figure;
 use std::fs;
@@ -94,33 +96,6 @@ pub fn bench(scope: &Scope) -> Result<(), String> {
         println!("wrote {}", file.display());
     }
     Ok(())
-}
-
-/// Draw a plan and a perspective of every grid in `scope`, at seed 1.
-pub fn pictures(scope: &Scope) -> Result<(), String> {
-    let gridshell = build::gridshell()?;
-    let folder = docs().join("gallery");
-    fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let draw = |name: &str, order: &Order| -> Result<(), String> {
-        let laid = lay(&gridshell, order).map_err(|e| format!("{name}: {e}"))?;
-        for view in [View::Plan, View::Perspective] {
-            picture::draw(&laid, view, &folder.join(file_name(name, view)))?;
-        }
-        println!("{name}");
-        Ok(())
-    };
-    for case in scope.cases() {
-        let edge_length = Some(case.edge_length);
-        draw(case.name, &Order { edge_length, ..Order::plain(&scope.surface(case)) })?;
-    }
-    scope.further().try_for_each(|name| draw(name, &Order::plain(name)))
-}
-
-fn file_name(name: &str, view: View) -> String {
-    match view {
-        View::Plan => format!("{name}-plan.png"),
-        View::Perspective => format!("{name}.png"),
-    }
 }
 
 fn docs() -> PathBuf {
@@ -225,26 +200,22 @@ fn page(scope: &Scope, cases: &Table, further: &Table, troubles: &[String]) -> S
     let timeless = |table: &Table| Table(without_seconds(&table.0));
     let mut text = format!(
         "# Quality\n\n\
-         Measured by gridshell {version} with its default recipe, by `cargo xtask bench quality`; pictures by \
-         `cargo xtask pictures`. What the figures mean is told in the [README](../README.md); times are printed \
+         Measured by gridshell {version} with its default recipe, by `cargo xtask bench quality`. What the figures mean is told in the [README](../README.md); times are printed \
          by the command and not kept here.\n\n\
-         In the pictures members have the colour of their length, grey where it is l0, blue where shorter, red \
-         where longer; black nodes have too few members, white ones too many.\n\n\
+         The grids are shown in the [gallery](gallery.md).\n\n\
          ## Six cases\n\n\
          Seed 1. In brackets what must be reached, and what is aimed at; ✗ where it is not reached. {source}\n\n\
-         {cases}\n{case_pictures}\n\
+         {cases}\n\
          ## Further surfaces\n\n\
          Built in, of every shape, at their own edge lengths. {seeds}, the paper's method at seed 1.\n\n\
-         {further}\n{further_pictures}",
+         {further}",
         version = env!("CARGO_PKG_VERSION"),
         cases = timeless(cases).markdown(),
-        case_pictures = shown(CASES.iter().map(|c| c.name)),
         seeds = match scope.seeds {
             1 => "Seed 1".to_owned(),
             n => format!("Seeds 1 to {n}: the median, and in brackets the worst"),
         },
         further = timeless(further).markdown(),
-        further_pictures = shown(FURTHER.into_iter()),
     );
     if !troubles.is_empty() {
         text += "\n## What the runs warned of\n\n";
@@ -263,13 +234,4 @@ fn without_seconds(rows: &[Vec<String>]) -> Vec<Vec<String>> {
         cells.map(|(_, cell)| cell.clone()).collect()
     })
     .collect()
-}
-
-/// A table of pictures: plan and perspective side by side.
-fn shown<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let row = |name: &str| {
-        let [plan, view] = [View::Plan, View::Perspective].map(|v| file_name(name, v));
-        format!("| {name} | ![{name} in plan](gallery/{plan}) | ![{name}](gallery/{view}) |\n")
-    };
-    "| | plan | perspective |\n|---|---|---|\n".to_owned() + &names.map(row).collect::<String>()
 }
