@@ -101,6 +101,32 @@ fn inputs_that_cannot_be_used_leave_with_3() {
 }
 
 #[test]
+fn a_damaged_grid_file_is_told_with_its_line_and_what_is_wrong() {
+    let folder = folder();
+    let run = gridshell(folder.path(), "generate hexagon -l 1 --effort draft -o a.gridshell");
+    assert_eq!(code(&run), 0, "{}", stderr(&run));
+    let text = fs::read_to_string(folder.path().join("a.gridshell")).expect("written");
+    for (damaged, told) in [
+        (&text[..text.len() / 2], "was cut off"),
+        ("", "it is empty"),
+        ("{}", "no grid file of gridshell: missing field `schema`"),
+        (&text.replace("\"nodes\": [", "\"nodes\": [\n[1, 2],"), "no grid file of gridshell"),
+        (&text.replace("\"panels\": [", "\"panels\": [\n[0, 1, 999],"), "panel 0: it uses node 999"),
+        (&text.replace("gridshell.grid/1", "gridshell.grid/9"), "use the version of gridshell"),
+    ] {
+        fs::write(folder.path().join("b.gridshell"), damaged).expect("written");
+        for command in ["convert b.gridshell -o b.obj", "measure b.gridshell", "generate b.gridshell"] {
+            let run = gridshell(folder.path(), command);
+            let said = stderr(&run);
+            assert_eq!(code(&run), 3, "{command}: {said}");
+            assert!(said.starts_with("gridshell: b.gridshell: ") && said.contains(told), "{said}");
+        }
+    }
+    let run = gridshell(folder.path(), "convert a.ifc -o b.obj");
+    assert!(stderr(&run).contains("is not one of gridshell, obj"), "{}", stderr(&run));
+}
+
+#[test]
 fn an_unknown_surface_is_answered_with_the_known_ones() {
     let output = gridshell(folder().path(), "generate great-cart");
     assert!(stderr(&output).contains("great-court"), "{}", stderr(&output));

@@ -8,6 +8,9 @@ use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform,
 };
 
+/// Colours of a small picture and of a sheet, at most.
+const OF_PICTURE: u8 = 80;
+const OF_SHEET: u8 = 255;
 /// Pixels of a millimetre: 150 to the inch.
 const PIXELS: f64 = 150.0 / 25.4;
 
@@ -31,19 +34,28 @@ pub fn encode(drawing: &Drawing) -> Result<Vec<u8>, Failure> {
             }
         }
     }
-    packed(&canvas.pixels, drawing.unit).map_err(Failure::other)
+    packed(&canvas.pixels, drawing).map_err(Failure::other)
 }
 
 /// The file: colours by numbers, and how large it is on paper.
-fn packed(pixels: &Pixmap, unit: Unit) -> Result<Vec<u8>, png::EncodingError> {
-    let Indexed { palette, pixels: numbers } = palette::indexed(pixels.data());
+fn packed(pixels: &Pixmap, drawing: &Drawing) -> Result<Vec<u8>, png::EncodingError> {
+    let mut inks: Vec<[u8; 3]> = drawing.marks.iter().filter_map(ink).map(bytes).collect();
+    inks.sort_unstable();
+    inks.dedup();
+    let most = match drawing.unit {
+        Unit::Pixel => OF_PICTURE,
+        Unit::Millimetre => OF_SHEET,
+    };
+    let Indexed { palette, pixels: numbers } = palette::indexed(pixels.data(), &inks, most);
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
     encoder.set_color(png::ColorType::Indexed);
     encoder.set_palette(palette.concat());
     // Neighbouring numbers are no neighbouring colours, so differences between pixels tell nothing.
     encoder.set_filter(png::FilterType::NoFilter);
-    if unit == Unit::Millimetre {
+    if drawing.unit == Unit::Pixel {
+        encoder.set_compression(png::Compression::Best);
+    } else {
         let per_metre = (1000.0 * PIXELS).round() as u32;
         let unit = png::Unit::Meter;
         encoder.set_pixel_dims(Some(png::PixelDimensions {
@@ -56,6 +68,19 @@ fn packed(pixels: &Pixmap, unit: Unit) -> Result<Vec<u8>, png::EncodingError> {
     writer.write_image_data(&numbers)?;
     writer.finish()?;
     Ok(bytes)
+}
+
+/// The colour of a line or a text. Areas have many by the light on them, and fill enough pixels.
+fn ink(mark: &Mark) -> Option<&Rgb> {
+    match mark {
+        Mark::Area { .. } => None,
+        Mark::Line { rgb, .. } => Some(rgb),
+        Mark::Text(text) => Some(&text.rgb),
+    }
+}
+
+fn bytes(rgb: &Rgb) -> [u8; 3] {
+    rgb.map(|x| (255.0 * x.clamp(0.0, 1.0)).round() as u8)
 }
 
 struct Canvas {
@@ -100,7 +125,7 @@ fn trace(points: &[[f64; 2]], closed: bool) -> Option<Path> {
 }
 
 fn paint(rgb: &Rgb) -> Paint<'static> {
-    let [r, g, b] = rgb.map(|x| (255.0 * x.clamp(0.0, 1.0)).round() as u8);
+    let [r, g, b] = bytes(rgb);
     let mut paint = Paint { anti_alias: true, ..Paint::default() };
     paint.set_color_rgba8(r, g, b, 255);
     paint

@@ -22,6 +22,8 @@ pub struct Style {
     pub member: f64,
     /// Radius of marked nodes.
     pub node: f64,
+    /// Size of supports; none are drawn at 0.
+    pub support: f64,
 }
 
 /// Members and nodes lie this share of the mean member length before the panels beside them.
@@ -37,9 +39,11 @@ pub const SUPPORT: Rgb = [0.05, 0.45, 0.30];
 impl Style {
     /// What suits members of this mean length on paper, on a sheet whose type is `type_size` high.
     pub fn of(member_length: f64, type_size: f64) -> Style {
+        let node = (0.13 * member_length).clamp(0.12 * type_size, 0.6 * type_size);
         Style {
             member: (0.045 * member_length).clamp(0.04 * type_size, 0.17 * type_size),
-            node: (0.13 * member_length).clamp(0.12 * type_size, 0.6 * type_size),
+            node,
+            support: 1.1 * node,
         }
     }
 
@@ -48,7 +52,8 @@ impl Style {
         if labels.is_empty() {
             return self;
         }
-        Style { member: 0.45 * self.member, node: 0.55 * self.node }
+        let Style { member, node, support } = self;
+        Style { member: 0.45 * member, node: 0.55 * node, support: 0.55 * support }
     }
 }
 
@@ -106,8 +111,8 @@ pub fn draw(
                 drawing.line(members.ends[k].map(place).to_vec(), width, rgb);
             }
             Item::Node(v) => {
-                if supported[v] {
-                    support(places[v], 1.1 * style.node, drawing);
+                if supported[v] && style.support > 0.0 {
+                    support(places[v], style.support, drawing);
                 }
                 mark(subject, colours, v, places[v], style.node, drawing);
             }

@@ -1,4 +1,5 @@
-//! A small picture of a grid without a sheet about it: its views below one another, and what the colours mean. Pixels.
+//! A small picture of a grid without a sheet about it: its views below one another, and what the colours mean; supports are
+//! left out. Pixels.
 
 use super::colour::{Coloring, Colours};
 use super::drawing::{Drawing, Unit};
@@ -28,7 +29,8 @@ pub fn picture(subject: &Subject, wish: &Wish, title: String) -> Drawing {
     let size = [widest + 2.0 * MARGIN, heights.iter().sum::<f64>() + gaps + foot];
     let mut drawing = Drawing::new(size.map(f64::ceil), Unit::Pixel, title);
     let member = scale * subject.schedule.figures.length.spread.mean;
-    let mut style = Style::of(member, TYPE).beside(wish.labels);
+    let style = Style::of(member, TYPE);
+    let mut style = Style { member: 1.6 * style.member, support: 0.0, ..style }.beside(wish.labels);
     if wish.coloring == Coloring::Degree {
         style.node *= COLOURED_NODES;
     }

@@ -31,8 +31,18 @@ fn refusal(path: &Path, bytes: &[u8], error: &serde_json::Error) -> Error {
     }
     match serde_json::from_slice::<Head>(bytes) {
         Ok(head) if head.schema != SCHEMA => newer(path, &head.schema),
-        _ => scan::error(path, format!("line {}", error.line()), error.to_string()),
+        _ => scan::error(path, format!("line {}", error.line()), told(error)),
     }
+}
+
+/// What is wrong with the text, without its place.
+fn told(error: &serde_json::Error) -> String {
+    if error.is_eof() {
+        return "the file ends here, before the grid is whole: it is empty or was cut off".to_owned();
+    }
+    let said = error.to_string();
+    let said = said.split(" at line ").next().unwrap_or_default();
+    format!("this is no grid file of gridshell: {said}")
 }
 
 fn newer(path: &Path, schema: &str) -> Error {
