@@ -87,19 +87,29 @@ fn open_document(path: &Path, surface: Option<&str>, opening: &Opening) -> Resul
         },
         (None, None) => None,
     };
+    let opened = restore(document, model.as_ref())?;
+    Ok(Opened { notes, ..opened })
+}
+
+/// The grid of a document on the surface made from `model`, which is the one that it was laid on; by itself without.
+///
+/// # Errors
+/// [`Error::Surface`] where the panels are no manifold or the surface cannot carry them.
+pub fn restore(document: Document, model: Option<&Model>) -> Result<Opened> {
     let xyz: Vec<DVec3> = document.nodes.iter().map(|&p| p.into()).collect();
     let recipe = document.recipe.clone().unwrap_or_default();
     let edge_length = document.edge_length.unwrap_or_else(|| mean_side(&xyz, &document.panels));
+    let notes = Vec::new();
     let Some(model) = model else {
         let (grid, surface) = Grid::alone(&document.name, xyz, &document.panels)?;
         let grid = with_features(grid, &document)?;
         return Ok(Opened { document, grid, surface, summary: None, edge_length, recipe, notes });
     };
     let surface = match &document.recipe {
-        Some(recipe) => pipeline::surface(&model, recipe)?.0,
-        None => sample(&model, edge_length, &recipe)?,
+        Some(recipe) => pipeline::surface(model, recipe)?.0,
+        None => sample(model, edge_length, &recipe)?,
     };
-    let summary = Some(SurfaceSummary::new(&model, &surface));
+    let summary = Some(SurfaceSummary::new(model, &surface));
     let grid = match at_places(&document, &xyz, &surface, edge_length) {
         Some(places) => {
             let mesh = Mesh::from_triangles(xyz.len(), &document.panels)?;

@@ -170,7 +170,7 @@ impl SymmetryReport {
 }
 
 /// One of the candidates that a grid was chosen from, as it was when it was left behind (before relaxing).
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct CandidateReport {
     /// The part that it was for, where there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -195,6 +195,10 @@ pub struct CandidateReport {
     pub mean_length_ratio: f64,
     /// Mean shape of the panels at the border, and length spread of its members.
     pub border: Border,
+    /// Its grid, on its part of the surface: of several parts that part, of a symmetric surface the one that the others
+    /// are images of.
+    #[serde(skip)]
+    pub grid: Grid,
 }
 
 /// What one stage did.

@@ -52,6 +52,7 @@ pub use refusal::Refusal;
 
 use crate::degree::{REGULAR, adjusted_degree};
 use crate::grid::{Grid, Place};
+use crate::job::Job;
 use crate::merit::Sums;
 use crate::recipe::Recipe;
 use crate::surface::Surface;
@@ -73,6 +74,8 @@ pub struct Editor {
     irregular: usize,
     done: Vec<Entry>,
     undone: Vec<Entry>,
+    /// What is told of the edit that is being done.
+    job: Job,
 }
 
 /// An edit in the history.
@@ -102,8 +105,19 @@ impl Editor {
         let (done, undone) = (Vec::new(), Vec::new());
         let sums = Sums::default();
         let irregular = 0;
-        let mut editor =
-            Editor { surface, grid, recipe, edge_length, start, sums, irregular, done, undone };
+        let job = Job::default();
+        let mut editor = Editor {
+            surface,
+            grid,
+            recipe,
+            edge_length,
+            start,
+            sums,
+            irregular,
+            done,
+            undone,
+            job,
+        };
         editor.count();
         editor
     }
@@ -172,7 +186,22 @@ impl Editor {
     /// # Errors
     /// [`Refusal`], with the grid as it was.
     pub fn apply(&mut self, edit: Edit) -> Result<Effect, Refusal> {
-        let Outcome { effect, grid, surface } = self.outcome(&edit)?;
+        self.apply_with(edit, &Job::default())
+    }
+
+    /// As [`Editor::apply`], telling `job` how far relaxing is. Healing and relaxing end when it is cancelled; then
+    /// nothing is done.
+    ///
+    /// # Errors
+    /// As [`Editor::apply`], and where the job was stopped.
+    pub fn apply_with(&mut self, edit: Edit, job: &Job) -> Result<Effect, Refusal> {
+        self.job = job.clone();
+        let outcome = self.outcome(&edit);
+        self.job = Job::default();
+        if job.stopped() {
+            return Err(Refusal::new(format!("{edit} was stopped"), "the grid is as it was"));
+        }
+        let Outcome { effect, grid, surface } = outcome?;
         let change = Change::between(&self.grid, &grid);
         let mut entry = Entry { edit, effect, change, surface };
         self.swap(&mut entry);
@@ -228,6 +257,7 @@ impl Editor {
             irregular: 0,
             done: Vec::new(),
             undone: Vec::new(),
+            job: self.job.clone(),
         };
         editor.count();
         editor

@@ -3,7 +3,6 @@
 use super::workbench::{Workbench, was_alive};
 use super::{Edit, Refusal, line};
 use crate::grid::Place;
-use crate::job::Job;
 use crate::stages::regularize::{drift_path, heal};
 use crate::stages::relax::relax;
 use glam::DVec3;
@@ -219,7 +218,7 @@ impl Workbench<'_> {
             return Err(Refusal::new("all nodes there are regular", "there is nothing to heal"));
         }
         let recipe = &self.editor.recipe;
-        if !heal(&mut self.state, recipe, &inside, TRIALS, seed, &Job::default()) {
+        if !heal(&mut self.state, recipe, &inside, TRIALS, seed, &self.editor.job) {
             return Err(Refusal::new(
                 "nothing better was found there",
                 "heal more rings, try another seed, or split or collapse a member by hand",
@@ -242,7 +241,7 @@ impl Workbench<'_> {
         }
         self.state.remember(&region);
         let editor = self.editor;
-        relax(&editor.surface, &mut self.state.grid, &editor.recipe, &Job::default());
+        relax(&editor.surface, &mut self.state.grid, &editor.recipe, &editor.job);
         for &v in &held {
             self.state.grid.mesh.pin(v, false);
         }

@@ -327,6 +327,19 @@ fn a_guide_is_followed_at_once_and_until_it_is_removed() {
 }
 
 #[test]
+fn relaxing_that_is_stopped_leaves_the_grid_as_it_was() {
+    let mut editor = editor(1);
+    let before = bits(&editor.grid);
+    let job = Job::default();
+    let first = job.clone();
+    let watched = job.with_progress(move |_| first.cancel());
+    let text = reason(editor.apply_with(Edit::RelaxAll {}, &watched));
+    assert!(text.contains("stopped"), "{text}");
+    assert_eq!(bits(&editor.grid), before);
+    assert_eq!(editor.history().len(), 0);
+}
+
+#[test]
 fn healing_only_moves_what_is_near() {
     let mut editor = editor(1);
     let mesh = &editor.grid.mesh;

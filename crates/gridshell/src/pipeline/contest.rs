@@ -199,12 +199,12 @@ impl Candidate {
 
 /// The table of all candidates, the winner's first.
 pub fn table(
-    candidates: &[Candidate],
+    candidates: Vec<Candidate>,
     winner: usize,
     starts: &[Start],
     recipe: &Recipe,
 ) -> Vec<CandidateReport> {
-    let report = |c: &Candidate| CandidateReport {
+    let report = |c: Candidate| CandidateReport {
         part: None,
         seed: starts[c.start].seed,
         start: starts[c.start].kind(),
@@ -219,8 +219,9 @@ pub fn table(
             shape_mean: c.sums.border_shape_mean(),
             edge_length_cv: c.sums.border_members.cv(),
         },
+        grid: c.grid,
     };
-    let (kept, left): (Vec<_>, Vec<_>) = candidates.iter().partition(|c| c.start == winner);
+    let (kept, left): (Vec<_>, Vec<_>) = candidates.into_iter().partition(|c| c.start == winner);
     kept.into_iter().chain(left).map(report).collect()
 }
 

@@ -109,7 +109,7 @@ fn lay(
     let Some(winner) = contest::relax(surface, &candidates, length, &budget, job) else {
         return Err(Error::Surface("the surface has no room for a single node".into()));
     };
-    let table = contest::table(&candidates, winner.start, &starts, recipe);
+    let table = contest::table(candidates, winner.start, &starts, recipe);
     let relaxed_in = clock.elapsed().as_secs_f64();
 
     let Start { report: settled, bubbles, .. } = &starts[winner.start];
