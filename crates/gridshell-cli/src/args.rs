@@ -310,7 +310,8 @@ pub struct Inspect {
 #[cfg(feature = "studio")]
 #[derive(ClapArgs)]
 pub struct Studio {
-    /// A file (STEP, IGES, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface to begin with.
+    /// A file (STEP, 3DM, IGES, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface to begin with;
+    /// a `.gridshell` file is gone on with.
     #[arg(default_value = "great-court")]
     pub surface: String,
     /// Port of 127.0.0.1; without it a free one.
@@ -319,6 +320,12 @@ pub struct Studio {
     /// Print the address, and leave opening the browser to the user.
     #[arg(long)]
     pub no_browser: bool,
+    /// Where grids are kept against crashes; without it a folder of the user's.
+    #[arg(long, value_name = "FOLDER", conflicts_with = "no_autosave")]
+    pub state: Option<PathBuf>,
+    /// Keep no grids against crashes.
+    #[arg(long)]
+    pub no_autosave: bool,
     /// A folder with a built page instead of the one in this program, for working on the page.
     #[arg(long, value_name = "FOLDER", hide = true)]
     pub page: Option<PathBuf>,

@@ -3,8 +3,11 @@
 use crate::Outcome;
 use crate::args::Studio;
 use crate::failure::Failure;
-use crate::say;
-use gridshell_studio::{Error, Options};
+use crate::subject::Subject;
+use crate::{report, say};
+use gridshell_studio::{Error, Options, Reported};
+use std::env;
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 
@@ -14,6 +17,8 @@ pub fn run(args: &Studio) -> Result<Outcome, Failure> {
         port: args.port,
         log: Arc::new(say::note),
         page: args.page.clone(),
+        state: args.state.clone().or_else(state).filter(|_| !args.no_autosave),
+        report: Some(page_of),
     };
     let told = |address: &str| {
         // Who started it needs the address even where nothing reads standard output any more.
@@ -27,6 +32,24 @@ pub fn run(args: &Studio) -> Result<Outcome, Failure> {
         Error::Io(e) => Failure::other(e),
     })?;
     Ok(Outcome::Done)
+}
+
+fn page_of(grid: &Reported) -> String {
+    let &Reported { document, grid, schedule, quality, edge_length, run } = grid;
+    report::page(&Subject { document, grid, schedule, quality, edge_length }, run)
+}
+
+/// Where programs of this system keep what they were at; None where the user has no such folder.
+fn state() -> Option<PathBuf> {
+    let folder = |name| env::var_os(name).map(PathBuf::from).filter(|p| p.is_absolute());
+    let root = if cfg!(target_os = "macos") {
+        folder("HOME")?.join("Library/Application Support")
+    } else if cfg!(windows) {
+        folder("LOCALAPPDATA")?
+    } else {
+        folder("XDG_STATE_HOME").or_else(|| Some(folder("HOME")?.join(".local/state")))?
+    };
+    Some(root.join("gridshell/studio"))
 }
 
 /// Open the user's browser; where that fails, the address has been printed.

@@ -7,6 +7,7 @@ fn main() -> Result<(), gridshell_studio::Error> {
     let mut arguments = std::env::args().skip(1);
     let surface = arguments.next().unwrap_or_else(|| "great-court".into());
     let log = Arc::new(|line: &str| eprintln!("{line}"));
-    let options = Options { surface, port: 0, log, page: arguments.next().map(Into::into) };
+    let page = arguments.next().map(Into::into);
+    let options = Options { surface, port: 0, log, page, state: None, report: None };
     run(options, |address| println!("{address}"))
 }

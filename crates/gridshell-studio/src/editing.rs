@@ -29,11 +29,20 @@ pub fn parse(edit: Value) -> Result<Edit> {
     serde_json::from_value(edit).map_err(|e| Error::Option(format!("not an edit: {e}")))
 }
 
-/// The history, to be told.
-pub fn history(run: u32, editor: &Editor) -> Event {
+/// The history, to be told; `before` are the edits that the grid came with.
+pub fn history(run: u32, before: &[Value], editor: Option<&Editor>) -> Event {
+    let told = |edit: &Value| match serde_json::from_value::<Edit>(edit.clone()) {
+        Ok(edit) => edit.to_string(),
+        Err(_) => edit.to_string(),
+    };
+    let before = before.iter().map(told).collect();
+    let Some(editor) = editor else {
+        return Event::History { run, before, done: Vec::new(), undone: Vec::new() };
+    };
     let told = |(edit, effect): (&Edit, &Effect)| step(editor, edit, &Ok(*effect));
     Event::History {
         run,
+        before,
         done: editor.history().map(told).collect(),
         undone: editor.undone().map(told).collect(),
     }

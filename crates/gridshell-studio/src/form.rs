@@ -279,13 +279,19 @@ fn choice(options: &[(&str, &str)]) -> Control {
     Control::Choice { options: options.iter().map(named).collect() }
 }
 
-/// The recipe that these values make; what is not given stays as the method has it.
+/// The method of a recipe that came with a grid.
+const FILE: &str = "file";
+
+/// The recipe that these values make; what is not given stays as the method has it. The method `file` is the recipe
+/// that came with a grid.
 ///
 /// # Errors
 /// [`Error::Option`] naming the field.
-pub fn recipe(values: &Values) -> Result<Recipe> {
+pub fn recipe(values: &Values, file: Option<&Recipe>) -> Result<Recipe> {
     let text = |key: &str| values.get(key).and_then(Value::as_str);
-    let base = Recipe::named(text("method").unwrap_or("default"))?;
+    let method = text("method").unwrap_or("default");
+    let given = file.filter(|_| method == FILE);
+    let base = given.map_or_else(|| Recipe::named(method), |r| Ok(r.clone()))?;
     let mut document = serde_json::to_value(base).map_err(|e| Error::Option(e.to_string()))?;
     let known = fields();
     for (key, value) in values {
@@ -294,6 +300,10 @@ pub fn recipe(values: &Values) -> Result<Recipe> {
         }
         let value = match key.as_str() {
             "method" | "vector" => continue,
+            "edge_length" | "nodes" | "candidates" if value.is_null() => Value::Null,
+            "anchors" if value.is_null() => json!([]),
+            // What the file says of curvature or points is more than the form can tell.
+            "size" | "direction" if given.is_some() && document[key]["kind"] == *value => continue,
             _ if value.is_null() => continue,
             "direction" if value == "vector" => vector(text("vector").unwrap_or_default())?,
             "size" | "direction" => json!({ "kind": value }),
@@ -310,6 +320,38 @@ pub fn recipe(values: &Values) -> Result<Recipe> {
         serde_json::from_value(document).map_err(|e| Error::Option(format!("the recipe: {e}")))?;
     recipe.validate()?;
     Ok(recipe)
+}
+
+/// The values that make `recipe` again, together with the recipe itself as the method [`FILE`]. What the form has no
+/// words for stays empty, which leaves it as it is.
+pub fn values(recipe: &Recipe) -> Values {
+    let document = json!(recipe);
+    let triple = |xyz: &Value| {
+        let numbers = xyz.as_array().into_iter().flatten().map(Value::to_string);
+        numbers.collect::<Vec<_>>().join(", ")
+    };
+    let value = |field: Field| {
+        let key = field.key;
+        let at = |path: &str| document.pointer(path).cloned().unwrap_or_default();
+        let plain = at(&format!("/{}", key.replace('.', "/")));
+        let value = match key.as_str() {
+            "method" => json!(FILE),
+            "vector" => match &plain {
+                _ if at("/direction/kind") == "vector" => json!(triple(&at("/direction/xyz"))),
+                _ => Value::Null,
+            },
+            "size" | "direction" if plain["kind"] == "points" => Value::Null,
+            "size" | "direction" => plain["kind"].clone(),
+            "anchors" => {
+                let lines: Vec<String> =
+                    plain.as_array().into_iter().flatten().map(triple).collect();
+                json!(lines.join("\n"))
+            }
+            _ => plain,
+        };
+        (key, value)
+    };
+    fields().into_iter().map(value).collect()
 }
 
 fn whole(key: &str, value: &Value) -> Result<Value> {
@@ -353,7 +395,26 @@ mod tests {
     #[test]
     fn values_as_the_page_has_them_at_first_make_the_default_recipe() {
         let values: Values = fields().into_iter().map(|f| (f.key, f.value)).collect();
-        assert_eq!(recipe(&values).unwrap(), Recipe::default());
+        assert_eq!(recipe(&values, None).unwrap(), Recipe::default());
+    }
+
+    #[test]
+    fn a_recipe_comes_back_from_its_values_with_what_the_form_cannot_tell() {
+        let mut given = Recipe::named("paper").unwrap();
+        given.edge_length = Some(1.25);
+        given.seed = 7;
+        given.anchors = vec![[1.0, 2.0, 3.5], [0.0, -1.0, 0.125]];
+        given.size = gridshell::recipe::Size::Curvature { range: [0.5, 1.5], strength: 0.3 };
+        given.guides = vec![vec![[0.0; 3], [1.0, 0.0, 0.0]]];
+        given.direction = gridshell::recipe::Direction::Vector { xyz: [1.0, 0.5, 0.0] };
+        let values = values(&given);
+        assert_eq!(recipe(&values, Some(&given)).unwrap(), given);
+        let mut fewer = values;
+        fewer.insert("anchors".into(), Value::Null);
+        fewer.insert("edge_length".into(), Value::Null);
+        let changed = recipe(&fewer, Some(&given)).unwrap();
+        assert_eq!((changed.anchors.len(), changed.edge_length), (0, None));
+        assert_eq!(changed.guides, given.guides);
     }
 
     #[test]
@@ -363,7 +424,8 @@ mod tests {
             for option in options {
                 let mut values = Values::from([(field.key.clone(), json!(option.name))]);
                 values.insert("vector".into(), json!("1, 0, 0"));
-                recipe(&values).unwrap_or_else(|e| panic!("{} {}: {e}", field.key, option.name));
+                recipe(&values, None)
+                    .unwrap_or_else(|e| panic!("{} {}: {e}", field.key, option.name));
             }
         }
     }
@@ -378,7 +440,8 @@ mod tests {
             ("border", json!(7)),
             ("guides", json!([])),
         ] {
-            let error = recipe(&Values::from([(key.to_owned(), value)])).unwrap_err().to_string();
+            let values = Values::from([(key.to_owned(), value)]);
+            let error = recipe(&values, None).unwrap_err().to_string();
             assert!(error.contains(key), "{key}: {error}");
         }
     }

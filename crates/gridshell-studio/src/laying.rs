@@ -1,8 +1,9 @@
 //! A run that goes on: a draft at once, then what was asked for, told and shown while it is laid.
 
-use crate::desk::{Desk, Opened};
+use crate::desk::Desk;
 use crate::laid::Laid;
 use crate::message::{Event, Progress, Shows};
+use crate::opened::Opened;
 use crate::scene;
 use gridshell::job::{self, Job, Picture};
 use gridshell::pipeline;
@@ -123,7 +124,7 @@ fn lay(
         }
     });
     let run = pipeline::generate(&opened.model, recipe, &watched).map_err(|e| e.to_string())?;
-    desk.keep(Laid::new(number, run, Arc::clone(opened)));
+    desk.keep(Laid::of_run(number, run, Arc::clone(opened), None));
     Ok(number)
 }
 

@@ -9,11 +9,14 @@
 //! - [`Studio::bind`] opens the socket, [`Studio::address`] is what the browser is given, [`Studio::serve`] answers.
 //!
 //! All geometry is in the library: the page draws arrays and asks what is under the pointer. Nothing that the page
-//! sends becomes a path on the disk: files come in and go out through the browser.
+//! sends becomes a path on the disk: files come in and go out through the browser. Against crashes grids are kept in a
+//! folder of the user's ([`Options::state`]).
 
+mod candidate;
 mod color;
 mod desk;
 mod editing;
+mod export;
 mod form;
 mod frame;
 mod guard;
@@ -21,12 +24,15 @@ mod laid;
 mod laying;
 mod measures;
 pub mod message;
+mod opened;
 mod page;
 mod pick;
 mod scene;
 mod server;
+mod session;
 mod told;
 
+pub use export::{Report, Reported};
 pub use server::Log;
 
 use desk::Desk;
@@ -40,7 +46,7 @@ use tokio::net::TcpListener;
 
 /// How the studio is opened.
 pub struct Options {
-    /// Name of a built-in surface or path of a file to begin with.
+    /// Name of a built-in surface or path of a file to begin with: a surface, or a grid with its surface.
     pub surface: String,
     /// Port of 127.0.0.1; 0 takes a free one.
     pub port: u16,
@@ -48,6 +54,10 @@ pub struct Options {
     pub log: Log,
     /// A folder with a built page, instead of the one in this program.
     pub page: Option<PathBuf>,
+    /// The folder where grids are kept against crashes; without it they are not.
+    pub state: Option<PathBuf>,
+    /// Makes a page on a grid; without it no reports can be exported.
+    pub report: Option<Report>,
 }
 
 /// Why the studio cannot be opened.
@@ -89,8 +99,13 @@ impl Studio {
     /// # Errors
     /// [`Error`].
     pub async fn bind(options: Options) -> Result<Studio, Error> {
-        let desk = Arc::new(Desk::default());
+        let desk = Arc::new(Desk::new(options.report));
         desk.open(&options.surface).map_err(Error::Surface)?;
+        if let Some(folder) = &options.state
+            && let Err(e) = desk.keep_in(folder, Arc::clone(&options.log))
+        {
+            (options.log)(&format!("no autosave: {}: {e}", folder.display()));
+        }
         let page = match options.page {
             Some(folder) => Page::in_folder(&folder)?,
             None => Page::built_in(),

@@ -1,32 +1,27 @@
 //! A run told to the page: measures with their floors, histograms, stages, candidates.
 
 use crate::color;
+use crate::laid::{Laid, Now};
 use crate::message::{CandidateRow, Histogram, Measure, RunInfo, RunSummary, StageRow};
 use gridshell::grid::Grid;
-use gridshell::run::Run;
 use gridshell::stages::measure::Quality;
 use gridshell::surface::Surface;
 
 /// Bins of a histogram.
 const BINS: usize = 24;
 
-/// All about a run.
-pub fn told(
-    summary: RunSummary,
-    run: &Run,
-    quality: &Quality,
-    grid: &Grid,
-    surface: &Surface,
-) -> RunInfo {
+/// All about a grid that is kept, as it is now.
+pub fn told(summary: RunSummary, laid: &Laid, now: &Now) -> RunInfo {
+    let run = laid.run.as_ref();
     RunInfo {
         summary,
-        edge_length: run.edge_length,
-        stopped: run.stopped,
-        measures: measures(quality, run.edge_length),
-        histograms: histograms(grid, surface),
-        stages: run.stages.iter().map(stage).collect(),
-        candidates: run.candidates.iter().map(candidate).collect(),
-        warnings: run.warnings.clone(),
+        edge_length: laid.edge_length,
+        stopped: run.is_some_and(|r| r.stopped),
+        measures: measures(&now.quality, laid.edge_length),
+        histograms: histograms(&now.grid, &laid.opened.sketch),
+        stages: run.iter().flat_map(|r| &r.stages).map(stage).collect(),
+        candidates: run.iter().flat_map(|r| &r.candidates).map(candidate).collect(),
+        warnings: laid.notes.clone(),
     }
 }
 

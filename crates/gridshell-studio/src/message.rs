@@ -15,6 +15,14 @@ pub enum Request {
         /// Its name.
         name: String,
     },
+    /// Read the open file again: only what is on these layers, and of that only the objects of these names; all that
+    /// the file shows without any.
+    Choose {
+        /// Layers by name, those below them included.
+        layers: Vec<String>,
+        /// Objects by name.
+        objects: Vec<String>,
+    },
     /// What this recipe would make.
     Estimate {
         /// Values of the form by key.
@@ -78,6 +86,25 @@ pub enum Request {
         #[cfg_attr(test, ts(type = "Record<string, unknown>"))]
         edit: Value,
     },
+    /// Send the candidates of a run, small and in plan.
+    Candidates {
+        /// Which run.
+        run: u32,
+    },
+    /// Show a candidate as it was when the best one was chosen.
+    Candidate {
+        /// Of which run.
+        run: u32,
+        /// Its place in the list, from 0.
+        index: u32,
+    },
+    /// Relax a candidate and keep it as a grid of its own.
+    Take {
+        /// Of which run.
+        run: u32,
+        /// Its place in the list, from 0.
+        index: u32,
+    },
     /// Take the last edit back.
     Undo {
         /// Of which run.
@@ -106,6 +133,16 @@ pub enum Request {
     Forget {
         /// Which one.
         run: u32,
+    },
+    /// Put what an earlier session left on the desk.
+    Recover {
+        /// Its name.
+        session: String,
+    },
+    /// Throw away what an earlier session left.
+    Discard {
+        /// Its name.
+        session: String,
     },
 }
 
@@ -177,15 +214,41 @@ pub enum Event {
         /// They.
         steps: Vec<Step>,
     },
+    /// The recipe of a grid that was opened from a file, for the form; its method is `file`.
+    Recipe {
+        /// Number of the grid.
+        run: u32,
+        /// Values of the form by key.
+        #[cfg_attr(test, ts(type = "Record<string, unknown>"))]
+        values: BTreeMap<String, Value>,
+    },
+    /// What earlier sessions left unsaved, the newest first.
+    Left {
+        /// They.
+        sessions: Vec<Left>,
+    },
     /// The edits of a run.
     History {
         /// Which run.
         run: u32,
+        /// What was done before its file was written, in words, the oldest first; it cannot be undone.
+        before: Vec<String>,
         /// What was done, the oldest first.
         done: Vec<Step>,
         /// What was taken back, the next to be done again first.
         undone: Vec<Step>,
     },
+    /// Something is done that takes a while; it can be cancelled.
+    Working {
+        /// To which run.
+        run: u32,
+        /// What, in words.
+        what: String,
+        /// Share that is done, 0 to 1.
+        fraction: f64,
+    },
+    /// It is done, or was cancelled.
+    Worked,
     /// Something that was asked for could not be done.
     Fault {
         /// What was asked for: `open`, `generate`, `estimate`, `message` ...
@@ -293,20 +356,64 @@ pub struct Coloring {
 pub struct SurfaceInfo {
     /// Built-in name or file stem.
     pub name: String,
+    /// Whether it is built in.
+    pub built_in: bool,
     /// Where it comes from.
     pub source: String,
     /// What to know of it.
     pub facts: Vec<Fact>,
     /// The parts, where there are several.
-    pub parts: Vec<String>,
-    /// Names of its layers or objects, where the file has any.
-    pub objects: Vec<String>,
+    pub parts: Vec<Part>,
+    /// The objects of its file, where the format knows any.
+    pub objects: Vec<Object>,
     /// What was skipped or repaired.
     pub notes: Vec<String>,
     /// A sensible edge length, metres.
     pub edge_length: f64,
     /// Least and largest coordinates, metres.
     pub bounds: [[f64; 3]; 2],
+}
+
+/// Faces that hang together.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Part {
+    /// Counted from 1.
+    pub number: u32,
+    /// Names of the file's objects that it is made of.
+    pub name: String,
+    /// Number of faces.
+    pub faces: u32,
+    /// Area, square metres.
+    pub area: f64,
+    /// Why no grid can be laid on it.
+    pub fault: Option<String>,
+}
+
+/// An object of a file.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Object {
+    /// Its name, or empty.
+    pub name: String,
+    /// The layer it is on, or empty.
+    pub layer: String,
+    /// What it is: `brep`, `mesh` ...
+    pub kind: String,
+    /// Faces read from it; 0 where it was left out.
+    pub faces: u32,
+}
+
+/// What an earlier session left unsaved.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Left {
+    /// Its name.
+    pub session: String,
+    /// When its last grid was kept: seconds since 1970, UTC.
+    pub seconds: f64,
+    /// A line on each of its grids.
+    pub grids: Vec<String>,
 }
 
 /// A figure with its name.
@@ -516,16 +623,20 @@ pub struct FrameHead {
 #[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "snake_case")]
 pub enum Shows {
-    /// `xyz`, `normals`, `triangles`, `lines`.
+    /// `xyz`, `normals`, `part` (of each point, counted from 1), `triangles`, `lines`.
     Surface,
     /// `xyz`, `radii`.
     Bubbles,
-    /// `xyz`, `panels`, `members`, `irregular`, `excess` of a grid being laid.
+    /// `xyz`, `panels`, `members`, `features` (members on creases and guides), `fixed` (nodes that do not move),
+    /// `irregular`, `excess` of a grid being laid.
     Live,
     /// The same of a grid that is done.
     Grid,
     /// The same of a grid between two stages.
     Stage,
+    /// `members0` (x, y of both ends), `few0` and `many0` (x, y of irregular nodes) of the first candidate, seen from
+    /// above, from 0 to 1; `members1` ... of the next.
+    Candidates,
     /// `values`.
     Colors,
 }
@@ -580,6 +691,9 @@ mod tests {
             Control::decl(&config),
             Coloring::decl(&config),
             SurfaceInfo::decl(&config),
+            Part::decl(&config),
+            Object::decl(&config),
+            Left::decl(&config),
             Fact::decl(&config),
             Progress::decl(&config),
             RunSummary::decl(&config),

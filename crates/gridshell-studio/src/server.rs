@@ -116,7 +116,7 @@ struct Sent {
     name: String,
 }
 
-/// A file sent by the page: kept in a folder of its own while it is read.
+/// A file sent by the page.
 async fn open(
     State(server): State<Arc<Server>>,
     Query(Sent { name }): Query<Sent>,
@@ -135,12 +135,7 @@ async fn open(
         );
     };
     let desk = Arc::clone(&server.desk);
-    let read = move || -> Result<(), String> {
-        let folder = tempfile::tempdir().map_err(|e| format!("no folder for the file: {e}"))?;
-        let path = folder.path().join(&name);
-        std::fs::write(&path, &bytes).map_err(|e| format!("{name}: {e}"))?;
-        desk.open_sent(&path, &name).map_err(|e| e.to_string())
-    };
+    let read = move || desk.open_sent(&name, &bytes).map_err(|e| e.to_string());
     match tokio::task::spawn_blocking(read).await {
         Ok(Ok(())) => StatusCode::NO_CONTENT.into_response(),
         Ok(Err(message)) => (StatusCode::UNPROCESSABLE_ENTITY, message).into_response(),

@@ -1,17 +1,33 @@
 //! What there is and what is open, told to the page.
 
-use crate::message::{Fact, Hello, Named, SurfaceInfo};
+use crate::message::{Fact, Hello, Named, Object, Part, SurfaceInfo};
 use crate::{color, form};
 use gridshell::inspect::Inspection;
 use gridshell::pipeline;
+use gridshell::run::PartSummary;
 use gridshell::surface::{Surface, builtin};
 
 /// Extensions of the files that can be opened.
-pub const ACCEPTS: [&str; 12] =
-    ["step", "stp", "iges", "igs", "obj", "ply", "stl", "off", "gltf", "glb", "json", "3dm"];
+pub const ACCEPTS: [&str; 13] = [
+    "gridshell",
+    "step",
+    "stp",
+    "iges",
+    "igs",
+    "obj",
+    "ply",
+    "stl",
+    "off",
+    "gltf",
+    "glb",
+    "json",
+    "3dm",
+];
 /// Extensions of the files that can be exported.
-pub const EXPORTS: [(&str, &str); 14] = [
+pub const EXPORTS: [(&str, &str); 16] = [
     ("gridshell", "gridshell: grid, surface, recipe and edits, to go on with"),
+    (REPORT, "Report: one page with pictures, measures and tables"),
+    ("csv.zip", "CSV: schedules of nodes, members and panels"),
     ("obj", "OBJ: panels, and members as lines"),
     ("dxf", "DXF: members, panels and nodes in layers"),
     ("ifc", "IFC4: members and plates"),
@@ -26,11 +42,13 @@ pub const EXPORTS: [(&str, &str); 14] = [
     ("run.json", "JSON: the run document, all measures"),
     ("edits.json", "JSON: the log of edits, for `gridshell edit`"),
 ];
+/// The extension of reports, which not every program can make.
+pub const REPORT: &str = "report.html";
 /// Largest file that can be opened, bytes.
 pub const UPLOAD_LIMIT: usize = 64 << 20;
 
-/// What there is.
-pub fn hello() -> Hello {
+/// What there is; `reports` says whether reports can be made.
+pub fn hello(reports: bool) -> Hello {
     let named = |name: &str, description: &str| Named {
         name: name.into(),
         description: description.into(),
@@ -41,15 +59,19 @@ pub fn hello() -> Hello {
         form: form::fields(),
         colorings: color::colorings(),
         accepts: ACCEPTS.map(str::to_owned).to_vec(),
-        exports: EXPORTS.iter().map(|e| named(e.0, e.1)).collect(),
+        exports: EXPORTS
+            .iter()
+            .filter(|e| reports || e.0 != REPORT)
+            .map(|e| named(e.0, e.1))
+            .collect(),
         upload_limit: UPLOAD_LIMIT as u32,
     }
 }
 
 /// What is known of a surface.
-pub fn info(inspection: &Inspection, sketch: &Surface) -> SurfaceInfo {
+pub fn info(inspection: &Inspection, sketch: &Surface, built_in: bool) -> SurfaceInfo {
     let surface = &inspection.surface;
-    let known = builtin::ALL.iter().find(|b| b.name == surface.name);
+    let known = builtin::ALL.iter().find(|b| built_in && b.name == surface.name);
     let edge_length = known.map_or_else(|| pipeline::length_for(sketch, 1000), |b| b.edge_length);
     let fact = |label: &str, value: String| Fact { label: label.into(), value };
     let size = [0, 1, 2].map(|k| surface.bounds.max[k] - surface.bounds.min[k]);
@@ -68,31 +90,33 @@ pub fn info(inspection: &Inspection, sketch: &Surface) -> SurfaceInfo {
     if !inspection.creases.is_empty() {
         facts.push(fact("Creases", inspection.creases.len().to_string()));
     }
-    let several = inspection.parts.len() > 1;
-    let mut objects: Vec<String> = inspection
-        .source
-        .objects
-        .iter()
-        .map(|o| {
-            [o.layer.as_str(), o.name.as_str()]
-                .into_iter()
-                .filter(|s| !s.is_empty())
-                .collect::<Vec<_>>()
-                .join(" / ")
-        })
-        .filter(|s| !s.is_empty())
-        .collect();
-    objects.dedup();
+    // As lists of layers and objects have it: without its kind and layer.
+    let short = |told: &String| {
+        let mut objects = inspection.source.objects.iter();
+        let named = objects.find(|o| o.told() == *told && !o.name.is_empty());
+        named.map_or_else(|| told.clone(), |o| o.name.clone())
+    };
+    let part = |p: &PartSummary| Part {
+        number: p.number as u32,
+        name: p.objects.iter().map(short).collect::<Vec<_>>().join(", "),
+        faces: p.faces as u32,
+        area: p.area,
+        fault: p.fault.clone(),
+    };
+    let object = |o: &gridshell::surface::Object| Object {
+        name: o.name.clone(),
+        layer: o.layer.clone(),
+        kind: o.kind.clone(),
+        faces: o.faces as u32,
+    };
+    let several = Some(&inspection.parts).filter(|parts| parts.len() > 1);
     SurfaceInfo {
         name: surface.name.clone(),
+        built_in,
         source: known.map_or_else(|| inspection.source.format.clone(), |b| b.description.into()),
         facts,
-        parts: if several {
-            inspection.parts.iter().map(gridshell::run::PartSummary::told).collect()
-        } else {
-            Vec::new()
-        },
-        objects,
+        parts: several.into_iter().flatten().map(part).collect(),
+        objects: inspection.source.objects.iter().map(object).collect(),
         notes: surface.notes.clone(),
         edge_length,
         bounds: [surface.bounds.min, surface.bounds.max],

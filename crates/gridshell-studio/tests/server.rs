@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use futures_util::{SinkExt, StreamExt};
+use gridshell::io::Opening;
 use gridshell_studio::{Options, Studio};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -32,6 +33,8 @@ async fn up() -> Up {
         port: 0,
         log: Arc::new(move |line: &str| lines.lock().unwrap().push(line.to_owned())),
         page: Some(PathBuf::from(page.path())),
+        state: None,
+        report: Some(|grid| format!("{} nodes", grid.grid.xyz.len())),
     };
     let studio = Studio::bind(options).await.unwrap();
     let address = studio.address();
@@ -169,6 +172,67 @@ async fn paths_lead_nowhere() {
     assert!(answer.contains("bad.obj") && !answer.contains("/tmp"), "{answer}");
     let answer = up.get(&format!("/{}/export?run=1&format=..%2Fobj", up.token), &up.host, "").await;
     assert_eq!(status(&answer), "404");
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_grid_file_comes_back_as_it_was_and_reads_nothing_else_from_the_disk() {
+    let up = up().await;
+    let mut tab = up.tab().await;
+    hear(&mut tab, &["idle"]).await;
+    let run = generate(&up, &mut tab).await;
+    let pin = json!({ "kind": "edit", "run": run, "edit": { "op": "pin", "node": 40 } });
+    say(&mut tab, &pin).await;
+    hear(&mut tab, &["history"]).await;
+    let path = format!("/{}/export?run={run}&format=gridshell", up.token);
+    let answer = up.get(&path, &up.host, "").await;
+    let file = answer.split_once("\r\n\r\n").unwrap().1.to_owned();
+    let open = format!("/{}/open?name=again.gridshell", up.token);
+    assert_eq!(status(&up.post(&open, file.as_bytes()).await), "204");
+    assert_eq!(hear(&mut tab, &["recipe"]).await["values"]["edge_length"], 0.8);
+    let again = hear(&mut tab, &["runs"]).await["newest"].as_u64().unwrap();
+    say(&mut tab, &json!({ "kind": "look", "run": again, "stage": null })).await;
+    assert!(hear(&mut tab, &["history"]).await["before"][0].as_str().unwrap().contains("pin 40"));
+    let path = format!("/{}/export?run={again}&format=gridshell", up.token);
+    let answer = up.get(&path, &up.host, "").await;
+    assert_eq!(answer.split_once("\r\n\r\n").unwrap().1, file, "saved again it is the same");
+
+    // The file of another surface lies on the disk just as the grid tells; nobody opened it here.
+    let folder = tempfile::tempdir().unwrap();
+    let secret = folder.path().join("secret.obj");
+    std::fs::write(&secret, "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n").unwrap();
+    let reference = gridshell::io::reference(&secret.to_string_lossy(), &Opening::default());
+    let told = serde_json::to_string(&reference.unwrap()).unwrap();
+    let file = file.replace("{\"builtin\":\"hexagon\"}", &told);
+    assert!(file.contains("secret.obj"));
+    assert_eq!(status(&up.post(&open, file.as_bytes()).await), "204");
+    let surface = hear(&mut tab, &["surface"]).await;
+    assert_eq!(surface["name"], "hexagon", "the grid is its own surface");
+    let alone = hear(&mut tab, &["runs"]).await["newest"].as_u64().unwrap();
+    say(&mut tab, &json!({ "kind": "look", "run": alone, "stage": null })).await;
+    let warning = hear(&mut tab, &["run"]).await["warnings"][0].to_string();
+    assert!(warning.contains("open that file first"), "{warning}");
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_file_named_like_a_built_in_surface_is_still_the_users() {
+    let up = up().await;
+    let mut tab = up.tab().await;
+    hear(&mut tab, &["idle"]).await;
+    let files = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../gridshell/tests/files");
+    let file = std::fs::read(files.join("assembly_m.step")).unwrap();
+    let answer = up.post(&format!("/{}/open?name=dome.step", up.token), &file).await;
+    assert_eq!(status(&answer), "204", "{answer}");
+    let surface = hear(&mut tab, &["surface"]).await;
+    assert_eq!((&surface["built_in"], &surface["source"]), (&json!(false), &json!("STEP")));
+    let parts = surface["parts"].as_array().unwrap();
+    assert!(parts.len() > 1 && parts.iter().all(|p| p["area"].as_f64().unwrap() > 0.0));
+    // Its own length, not the one that suits the dome.
+    say(&mut tab, &json!({ "kind": "estimate", "values": { "part": "all" } })).await;
+    let nodes = hear(&mut tab, &["estimate"]).await["nodes"].as_u64().unwrap();
+    assert!((900..1100).contains(&nodes), "{nodes}");
+    say(&mut tab, &json!({ "kind": "choose", "layers": ["Roof"], "objects": [] })).await;
+    let fault = hear(&mut tab, &["fault"]).await["message"].to_string();
+    assert!(fault.contains("in 3DM files only") && !fault.contains("/tmp"), "{fault}");
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -46,7 +46,7 @@ export class Editing {
     );
     this.hovered([]);
     this.suggested([]);
-    this.history([], []);
+    this.history([], [], []);
   }
 
   enable(yes: boolean): void {
@@ -72,6 +72,8 @@ export class Editing {
         "U unpin",
         "A anchor",
         "G move",
+        "L guide",
+        "R remove",
       ].map((k) => el("span", {}, [el("kbd", {}, [k[0]!]), k.slice(1)]));
       this.ways.replaceChildren(
         el("p", { class: "hint" }, ["Point at a member or node and press"]),
@@ -131,7 +133,8 @@ export class Editing {
     );
   }
 
-  history(done: Step[], undone: Step[]): void {
+  /** `before` came with the file and cannot be undone. */
+  history(before: string[], done: Step[], undone: Step[]): void {
     this.undo.disabled = !done.length;
     this.redo.disabled = !undone.length;
     const row = (step: Step, kind: string) =>
@@ -139,6 +142,9 @@ export class Editing {
     const rows = [
       ...undone.toReversed().map((s) => row(s, "undone")),
       ...done.toReversed().map((s) => row(s, "done")),
+      ...before
+        .toReversed()
+        .map((label) => el("li", { class: "before", title: "Came with the file" }, [el("b", {}, [label])])),
     ];
     this.past.replaceChildren(
       ...(rows.length ? rows : [el("li", { class: "hint" }, ["Nothing was changed by hand."])]),

@@ -31,11 +31,13 @@ export class Form {
     }
   }
 
-  /** What the server calls the parts. */
-  parts(parts: string[]): void {
+  /** The names of the parts; empty where they have none. */
+  parts(names: string[]): void {
     const select = this.inputs.get("part");
     if (!(select instanceof HTMLSelectElement)) return;
-    const several = parts.map((_, k) => new Option(`Part ${k + 1}`, String(k + 1)));
+    const several = names.map(
+      (name, k) => new Option(name ? `${k + 1}: ${name}` : `Part ${k + 1}`, String(k + 1)),
+    );
     const all = new Option("All", "all");
     select.replaceChildren(
       ...(several.length ? [all, ...several] : [new Option("The only one", "one"), all]),
@@ -48,6 +50,26 @@ export class Form {
     if (input instanceof HTMLInputElement) input.placeholder = value;
   }
 
+  /** The recipe of a file can be chosen as the method. */
+  file(): void {
+    const method = this.inputs.get("method");
+    if (!(method instanceof HTMLSelectElement) || method.querySelector("[value=file]")) return;
+    method.append(new Option("As in the file", "file"));
+  }
+
+  /** It cannot any more. */
+  noFile(): void {
+    const method = this.inputs.get("method");
+    if (!(method instanceof HTMLSelectElement)) return;
+    if (method.value === "file") for (const field of this.fields) this.set(field.key, text(field.value));
+    method.querySelector("[value=file]")?.remove();
+  }
+
+  /** Take these values over. */
+  apply(values: Record<string, unknown>): void {
+    for (const field of this.fields) this.set(field.key, text(values[field.key]));
+  }
+
   values(): Record<string, unknown> {
     const values: Record<string, unknown> = {};
     for (const field of this.fields) {
@@ -57,6 +79,10 @@ export class Form {
       values[field.key] = text === "" ? null : field.control.kind === "number" ? Number(text) : text;
     }
     return values;
+  }
+
+  get(key: string): string {
+    return this.inputs.get(key)?.value ?? "";
   }
 
   set(key: string, value: string): void {
@@ -79,7 +105,7 @@ export class Form {
 
   private input(field: Field, id: string): HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement {
     const about = { id, name: field.key, "aria-describedby": `${id}-help` };
-    const value = field.value === null || field.value === undefined ? "" : String(field.value);
+    const value = text(field.value);
     switch (field.control.kind) {
       case "number": {
         const { min, max, optional } = field.control;
@@ -99,4 +125,8 @@ export class Form {
         return el("input", { ...about, type: "text", placeholder: "x, y, z" });
     }
   }
+}
+
+function text(value: unknown): string {
+  return value === null || value === undefined ? "" : String(value);
 }

@@ -6,6 +6,7 @@ import {
   DoubleSide,
   DynamicDrawUsage,
   Group,
+  Line,
   LineBasicMaterial,
   LineSegments,
   Mesh,
@@ -23,6 +24,10 @@ import { paint, type Theme } from "./palette";
 
 /** Wide lines up to so many members; more of them are thinner on the screen than a pixel is wide anyway. */
 const MOST_WIDE = 24000;
+
+/** What is meant, and what does not move. */
+const MARKED = "#2f7fe0";
+const FIXED = "#e0a33c";
 
 const DISC_VERTEX = `
   attribute vec3 fill;
@@ -106,6 +111,9 @@ function gather(xyz: Float32Array, corners: Uint32Array): Float32Array {
 
 export class SurfaceLayer {
   readonly group = new Group();
+  private part: Uint32Array = new Uint32Array();
+  private theme: Theme | null = null;
+  private pointedAt = 0;
   private readonly mesh: Mesh<BufferGeometry, MeshLambertMaterial>;
   private readonly lines: LineSegments<BufferGeometry, LineBasicMaterial>;
 
@@ -130,10 +138,27 @@ export class SurfaceLayer {
     this.mesh.geometry.setAttribute("position", xyz);
     this.mesh.geometry.setAttribute("normal", new BufferAttribute(floats(frame, "normals"), 3));
     this.mesh.geometry.setIndex(new BufferAttribute(wholes(frame, "triangles"), 1));
+    this.part = wholes(frame, "part");
+    this.pointAt(0);
     this.lines.geometry.dispose();
     this.lines.geometry = new BufferGeometry();
     this.lines.geometry.setAttribute("position", xyz);
     this.lines.geometry.setIndex(new BufferAttribute(wholes(frame, "lines"), 1));
+  }
+
+  /** Let one part stand out; 0 for none. */
+  pointAt(part: number): void {
+    this.pointedAt = part;
+    const { geometry, material } = this.mesh;
+    material.vertexColors = part > 0;
+    material.needsUpdate = true;
+    if (!this.theme) return;
+    material.color.set(part > 0 ? "#ffffff" : this.theme.surface);
+    if (part === 0) return;
+    const [own, others] = [new Color(this.theme.chosen), new Color(this.theme.surface)];
+    const colors = new Float32Array(3 * this.part.length);
+    for (let k = 0; k < this.part.length; k++) (this.part[k] === part ? own : others).toArray(colors, 3 * k);
+    put(geometry, "color", colors, 3);
   }
 
   /** Behind a grid the surface is only hinted at, or just its lines are seen. */
@@ -147,7 +172,8 @@ export class SurfaceLayer {
   }
 
   dress(theme: Theme, planes: Plane[]): void {
-    this.mesh.material.color.set(theme.surface);
+    this.theme = theme;
+    this.pointAt(this.pointedAt);
     this.lines.material.color.set(theme.lines);
     this.mesh.material.clippingPlanes = planes;
     this.lines.material.clippingPlanes = planes;
@@ -175,7 +201,10 @@ export class GridLayer {
   private readonly thin: LineSegments<BufferGeometry, LineBasicMaterial>;
   private readonly wide: LineSegments2;
   private readonly wideMaterial: LineMaterial;
+  private readonly features: LineSegments2;
+  private readonly featureMaterial = new LineMaterial({ linewidth: 2.6 });
   private readonly nodes = discs(false);
+  private readonly fixed = discs(false);
   private readonly marks = discs(false);
   private frame: Frame | null = null;
   private theme: Theme;
@@ -196,8 +225,10 @@ export class GridLayer {
     this.thin = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
     this.wideMaterial = new LineMaterial({ linewidth: 1.6 });
     this.wide = new LineSegments2(new LineSegmentsGeometry(), this.wideMaterial);
-    for (const part of [this.panels, this.thin, this.wide]) part.frustumCulled = false;
-    this.group.add(this.panels, this.thin, this.wide, this.marks, this.nodes);
+    this.features = new LineSegments2(new LineSegmentsGeometry(), this.featureMaterial);
+    for (const part of [this.panels, this.thin, this.wide, this.features]) part.frustumCulled = false;
+    this.group.add(this.panels, this.thin, this.wide, this.features, this.fixed, this.marks, this.nodes);
+    this.fixed.visible = false;
     this.group.visible = false;
   }
 
@@ -209,6 +240,14 @@ export class GridLayer {
     put(this.panels.geometry, "position", corners, 3);
     this.panels.geometry.setDrawRange(0, corners.length / 3);
     this.lines(gather(xyz, wholes(frame, "members")));
+    const features = wholes(frame, "features");
+    this.features.visible = features.length > 0;
+    if (features.length) {
+      this.features.geometry.dispose();
+      this.features.geometry = new LineSegmentsGeometry();
+      this.features.geometry.setPositions(gather(xyz, features));
+    }
+    this.dots(this.fixed, wholes(frame, "fixed"), FIXED, 7);
     const odd = wholes(frame, "irregular");
     const excess = floats(frame, "excess");
     // As in the paper: black where a node has too few members, white where it has too many.
@@ -292,22 +331,44 @@ export class GridLayer {
     this.panels.material.needsUpdate = true;
   }
 
+  /** Whether it has so many members that drawing it takes its time. */
+  get large(): boolean {
+    return this.thin.visible;
+  }
+
+  /** Where the irregular nodes are. */
+  irregular(): [number, number, number][] {
+    if (!this.frame) return [];
+    const at = gather(floats(this.frame, "xyz"), wholes(this.frame, "irregular"));
+    return Array.from({ length: at.length / 3 }, (_, k) => [at[3 * k]!, at[3 * k + 1]!, at[3 * k + 2]!]);
+  }
+
   /** Show which nodes are meant. */
   mark(nodes: number[]): void {
+    this.dots(this.marks, Uint32Array.from(nodes), MARKED, 13);
+  }
+
+  /** Whether the nodes that do not move are told from the others. */
+  showsFixed(yes: boolean): void {
+    this.fixed.visible = yes;
+  }
+
+  private dots(of: ReturnType<typeof discs>, nodes: Uint32Array, fill: string, size: number): void {
     const xyz = this.frame ? floats(this.frame, "xyz") : new Float32Array();
-    const at = gather(xyz, Uint32Array.from(nodes));
-    const fill = new Float32Array(at.length);
-    const color = new Color("#2f7fe0");
-    for (let k = 0; k < nodes.length; k++) color.toArray(fill, 3 * k);
-    put(this.marks.geometry, "position", at, 3);
-    put(this.marks.geometry, "fill", fill, 3);
-    put(this.marks.geometry, "size", new Float32Array(nodes.length).fill(13), 1);
+    const colors = new Float32Array(3 * nodes.length);
+    const color = new Color(fill);
+    for (let k = 0; k < nodes.length; k++) color.toArray(colors, 3 * k);
+    put(of.geometry, "position", gather(xyz, nodes), 3);
+    put(of.geometry, "fill", colors, 3);
+    put(of.geometry, "size", new Float32Array(nodes.length).fill(size), 1);
   }
 
   dress(theme: Theme, planes: Plane[]): void {
     this.theme = theme;
-    for (const m of [this.panels.material, this.thin.material, this.wideMaterial]) m.clippingPlanes = planes;
-    for (const p of [this.nodes, this.marks]) {
+    const materials = [this.panels.material, this.thin.material, this.wideMaterial, this.featureMaterial];
+    for (const m of materials) m.clippingPlanes = planes;
+    this.featureMaterial.color.set(theme.chosen);
+    for (const p of [this.nodes, this.marks, this.fixed]) {
       p.material.clippingPlanes = planes;
       (p.material.uniforms["rim"]!.value as Color).set(theme.rim);
     }
@@ -323,6 +384,29 @@ export class GridLayer {
   /** Sizes on the screen, in pixels. */
   resize(width: number, height: number, pixels: number): void {
     this.wideMaterial.resolution.copy(new Vector2(width, height));
-    for (const p of [this.nodes, this.marks]) p.material.uniforms["pixels"]!.value = pixels;
+    this.featureMaterial.resolution.copy(this.wideMaterial.resolution);
+    for (const p of [this.nodes, this.marks, this.fixed]) p.material.uniforms["pixels"]!.value = pixels;
+  }
+}
+
+/** A line that is being drawn by hand, seen through everything. */
+export class DrawnLayer {
+  readonly line: Line<BufferGeometry, LineBasicMaterial>;
+  readonly ends = discs(false);
+
+  constructor() {
+    this.line = new Line(new BufferGeometry(), new LineBasicMaterial({ color: MARKED, depthTest: false }));
+    this.line.frustumCulled = false;
+    this.line.renderOrder = 3;
+    this.show([]);
+  }
+
+  show(points: [number, number, number][]): void {
+    const at = Float32Array.from(points.flat());
+    const color = new Color(MARKED);
+    for (const geometry of [this.line.geometry, this.ends.geometry]) put(geometry, "position", at, 3);
+    put(this.ends.geometry, "fill", Float32Array.from(points.flatMap(() => color.toArray())), 3);
+    put(this.ends.geometry, "size", new Float32Array(points.length).fill(11), 1);
+    this.line.visible = this.ends.visible = points.length > 0;
   }
 }

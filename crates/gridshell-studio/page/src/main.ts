@@ -1,23 +1,29 @@
 // The studio's page: what stands where, and what happens when.
 import "./style.css";
+import { Candidates } from "./candidates";
+import { Choosing } from "./choosing";
 import { el, figure } from "./dom";
 import { Editing } from "./editing";
 import { Form } from "./form";
 import { type Frame, Link } from "./link";
 import type { Event, Hello, Picked, Progress, RunSummary, SurfaceInfo } from "./messages";
 import { gradient, THEMES } from "./palette";
+import { Recovery } from "./recovery";
 import { Report } from "./report";
 import { type Side, View } from "./view";
 
 const app = document.getElementById("app")!;
 const form = new Form();
 const report = new Report();
+const choosing = new Choosing();
+const candidates = new Candidates();
+const recovery = new Recovery();
 const toast = el("div", { class: "toast", role: "alert", hidden: true });
 const status = el("output", { class: "status", "aria-live": "polite" }, ["connecting …"]);
 
 /* Left: what is wanted. */
 const surfaces = el("select", { id: "surface", "aria-label": "Built-in surface" });
-const fileInput = el("input", { type: "file", id: "file", hidden: true });
+const fileInput = el("input", { type: "file", id: "file", hidden: true, multiple: true });
 const openButton = el("button", { type: "button", class: "quiet" }, ["Open file …"]);
 const about = el("div", { class: "about" });
 const estimate = el("p", { class: "estimate" }, ["–"]);
@@ -69,6 +75,15 @@ const surfaceToggle = toggle("Surface", "Show the surface behind the grid", "sho
 const measureToggle = toggle("Distance", "Measure between two points (M)", "measure");
 const editToggle = toggle("Edit", "Change the grid by hand (E)", "edit");
 const compareToggle = toggle("Compare", "Two runs side by side", "compare");
+const save = el(
+  "button",
+  {
+    type: "button",
+    id: "save",
+    title: "Save the grid with surface, recipe and edits, to go on with (Ctrl-S)",
+  },
+  ["Save"],
+);
 const picture = el("button", { type: "button", title: "Save a picture of the view" }, ["PNG"]);
 const formats = el("select", { "aria-label": "Export as", id: "export" }, [
   el("option", { value: "" }, ["Export …"]),
@@ -82,6 +97,7 @@ const toolbar = el("div", { class: "toolbar", role: "toolbar", "aria-label": "Vi
   compareToggle,
   el("span", { class: "gap" }),
   colorings,
+  save,
   picture,
   formats,
 ]);
@@ -90,13 +106,17 @@ const hostB = el("div", { class: "host", hidden: true });
 const selectB = el("select", { class: "other", "aria-label": "Run to compare with" });
 hostB.append(selectB);
 const rubber = el("div", { class: "rubber", hidden: true });
-const stage = el("div", { class: "stage" }, [host, hostB, legend, tip, rubber, toast]);
+const stage = el("div", { class: "stage" }, [host, hostB, legend, tip, rubber, recovery.element, toast]);
 const tabs = el("div", { class: "runs", role: "tablist", "aria-label": "Runs" });
 const centre = el("main", { class: "centre" }, [toolbar, stage, tabs]);
 
 /* Right: what it is worth. */
 const editing = new Editing();
-const right = el("aside", { class: "right", "aria-label": "Measures" }, [editing.element, report.element]);
+const right = el("aside", { class: "right", "aria-label": "Measures" }, [
+  editing.element,
+  report.element,
+  candidates.element,
+]);
 const theme = el("button", { type: "button", class: "quiet", title: "Light or dark" }, ["Theme"]);
 app.append(
   el("header", {}, [el("h1", {}, ["gridshell ", el("span", {}, ["studio"])]), status, theme]),
@@ -122,15 +142,18 @@ let question = 0;
 let asked = false;
 let lastPointer: PointerEvent | null = null;
 let picked: Picked | null = null;
-let from: [number, number, number] | null = null;
+type Point = [number, number, number];
+let from: Point | null = null;
 let announced = 0;
+/** The grid whose recipe the form began with. */
+let formOf = 0;
 
 const link = new Link({
   connected(yes) {
     status.textContent = yes ? "ready" : "no connection: is gridshell still running? Trying again …";
     status.classList.toggle("lost", !yes);
     if (!yes) return;
-    asked = false;
+    [asked, again, waiting] = [false, false, []];
     // What is shown may have changed while nobody listened.
     if (shown) setTimeout(() => shown && show(shown), 300);
   },
@@ -157,9 +180,19 @@ function onEvent(event: Event): void {
       return busy(false);
     case "runs":
       return onRuns(event.runs, event.newest);
+    case "recipe":
+      form.file();
+      // The same again after a broken connection: what was typed since then stays.
+      if (event.run !== formOf) form.apply(event.values);
+      choosing.chosen(form.get("part"));
+      formOf = event.run;
+      return askEstimate();
+    case "left":
+      return recovery.show(event.sessions);
     case "run":
-      if (event.summary.run === shown) report.show(event);
-      return;
+      if (event.summary.run !== shown) return;
+      report.show(event);
+      return candidates.show(event);
     case "picked":
       return onPicked(event);
     case "hovered":
@@ -167,7 +200,7 @@ function onEvent(event: Event): void {
       return;
     case "history":
       if (event.run !== shown) return;
-      editing.history(event.done, event.undone);
+      editing.history(event.before, event.done, event.undone);
       if (pressed(editToggle)) askSuggestions();
       return;
     case "suggested":
@@ -183,6 +216,10 @@ function onEvent(event: Event): void {
         `${event.straight.toFixed(3)} m straight, ${event.plan.toFixed(3)} m in plan, ${event.height.toFixed(3)} m up`,
       );
       return;
+    case "working":
+      return onWorking(event.what, event.fraction);
+    case "worked":
+      return onWorking(null, 0);
     case "fault":
       if (event.about === "estimate") estimate.textContent = event.message;
       else say(event.message, true);
@@ -198,6 +235,7 @@ function onFrame(frame: Frame): void {
       viewB?.showSurface(frame);
       shown = 0;
       report.show(null);
+      candidates.show(null);
       return;
     case "bubbles":
     case "live":
@@ -222,6 +260,8 @@ function onFrame(frame: Frame): void {
     case "stage":
       if (frame.run === shown) view.showGrid(frame);
       return;
+    case "candidates":
+      return candidates.draw(frame);
     case "colors":
       if (frame.run === shownB && viewB) {
         viewB.grid.color(frame);
@@ -259,7 +299,7 @@ function onHello(event: Hello & { kind: "hello" }): void {
 
 function onSurface(event: SurfaceInfo): void {
   surface = event;
-  const known = hello?.builtins.some((b) => b.name === event.name) ?? false;
+  const known = event.built_in;
   surfaces.value = known ? event.name : "";
   document.title = `${event.name} – gridshell studio`;
   about.replaceChildren(
@@ -269,11 +309,11 @@ function onSurface(event: SurfaceInfo): void {
       {},
       event.facts.flatMap((f) => [el("dt", {}, [f.label]), el("dd", {}, [f.value])]),
     ),
-    list("Parts", event.parts),
-    list("Layers and objects", event.objects),
+    choosing.element,
     list("Notes", event.notes),
   );
-  form.parts(event.parts);
+  choosing.show(event);
+  form.parts(event.parts.map((p) => p.name));
   if (event.parts.length) form.set("part", "all");
   askEstimate();
 }
@@ -309,10 +349,29 @@ function onProgress(event: Progress): void {
   status.textContent = `${event.draft ? "draft" : "grid"}: ${event.stage}, ${event.seconds.toFixed(1)} s`;
 }
 
+let working: string | null = null;
+let patience: ReturnType<typeof setTimeout> | undefined;
+/** An edit goes on; most are done before it is worth a word. */
+function onWorking(what: string | null, fraction: number): void {
+  const begins = what !== null && working === null;
+  working = what;
+  const tell = () => {
+    if (working === null) return;
+    cancel.disabled = false;
+    status.textContent = `${working} …${fraction > 0 ? ` ${(100 * fraction).toFixed(0)} %` : ""}`;
+  };
+  if (begins) patience = setTimeout(tell, 250);
+  else if (fraction > 0) tell();
+  if (what !== null) return;
+  clearTimeout(patience);
+  cancel.disabled = !going;
+  if (!going) status.textContent = "ready";
+}
+
 function busy(yes: boolean): void {
   if (generate.disabled !== yes) showTabs();
   generate.disabled = yes;
-  cancel.disabled = !yes;
+  cancel.disabled = !yes && working === null;
   stages.classList.toggle("idle", !yes);
   if (!yes && link) {
     status.textContent = "ready";
@@ -382,9 +441,11 @@ function tab(run: RunSummary): HTMLElement {
 
 function show(run: number): void {
   shown = run;
+  draw(null);
   picked = null;
   tip.hidden = true;
   editing.run(run);
+  candidates.choose(-1);
   link.send({ kind: "look", run, stage: null });
   for (const button of tabs.querySelectorAll<HTMLElement>("[role=tab]")) {
     button.setAttribute("aria-selected", String(button.dataset["run"] === String(run)));
@@ -430,7 +491,19 @@ function askEstimate(): void {
   estimating = setTimeout(() => link.send({ kind: "estimate", values: form.values() }), 150);
 }
 let estimating: ReturnType<typeof setTimeout> | undefined;
-form.onChange = askEstimate;
+form.onChange = () => {
+  choosing.chosen(form.get("part"));
+  askEstimate();
+};
+choosing.onPart = (part) => {
+  form.set("part", part);
+  askEstimate();
+};
+choosing.onPoint = (part) => view.pointAt(part);
+choosing.onChoose = (layers, objects) => {
+  anew();
+  link.send({ kind: "choose", layers, objects });
+};
 
 function start(): void {
   if (going) return;
@@ -441,16 +514,29 @@ function start(): void {
 }
 generate.onclick = start;
 cancel.onclick = () => link.send({ kind: "cancel" });
-surfaces.onchange = () => {
+/** Another surface: its own recipe, and an edge length that suits it. */
+function anew(): void {
   form.set("edge_length", "");
+  form.noFile();
+  formOf = 0;
+}
+surfaces.onchange = () => {
+  anew();
   link.send({ kind: "open", name: surfaces.value });
 };
 openButton.onclick = () => fileInput.click();
 fileInput.onchange = () => {
-  const file = fileInput.files?.[0];
-  if (file) void open(file);
+  void openAll(fileInput.files);
   fileInput.value = "";
 };
+
+const isGrid = (file: File) => file.name.toLowerCase().endsWith(".gridshell");
+
+/** Surfaces first: a grid among the files may lie on one of them. */
+async function openAll(files: FileList | null | undefined): Promise<void> {
+  const all = [...(files ?? [])];
+  for (const file of [...all.filter((f) => !isGrid(f)), ...all.filter(isGrid)]) await open(file);
+}
 
 async function open(file: File): Promise<void> {
   if (hello && file.size > hello.upload_limit) {
@@ -458,7 +544,7 @@ async function open(file: File): Promise<void> {
     return;
   }
   status.textContent = `reading ${file.name} …`;
-  form.set("edge_length", "");
+  anew();
   try {
     const answer = await fetch(`open?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
     if (answer.ok) say(`opened ${file.name}`);
@@ -477,8 +563,7 @@ stage.addEventListener("dragleave", () => stage.classList.remove("drop"));
 stage.addEventListener("drop", (e) => {
   e.preventDefault();
   stage.classList.remove("drop");
-  const file = e.dataTransfer?.files[0];
-  if (file) void open(file);
+  void openAll(e.dataTransfer?.files);
 });
 
 colorings.onchange = () => {
@@ -494,12 +579,16 @@ colorings.onchange = () => {
   }
 };
 
+save.onclick = () => exportAs("gridshell");
 formats.onchange = () => {
-  const format = formats.value;
+  exportAs(formats.value);
   formats.value = "";
+};
+
+function exportAs(format: string): void {
   if (!shown) return say("generate a grid first", true);
   download(`export?run=${shown}&format=${format}`, "");
-};
+}
 
 picture.onclick = async () => {
   const blob = await view.picture();
@@ -544,6 +633,9 @@ measureToggle.onclick = () => {
 editToggle.onclick = () => {
   const on = flip(editToggle);
   editing.enable(on);
+  view.grid.showsFixed(on);
+  view.redraw();
+  if (!on) draw(null);
   stage.classList.toggle("editing", on);
   if (on && shown) askSuggestions();
 };
@@ -581,8 +673,17 @@ function compareWith(run: number): void {
 }
 
 /* The pointer. */
+/** Whether it moved while the answer was awaited, and what is to be done when all is answered. */
+let again = false;
+let waiting: (() => void)[] = [];
+/** Do what is about the place under the pointer, once it is known. */
+function settled(act: () => void): void {
+  if (asked) waiting.push(act);
+  else act();
+}
 function ask(e: PointerEvent): void {
   lastPointer = e;
+  again = asked;
   if (asked || !shown || shownLive) return;
   asked = true;
   question++;
@@ -592,6 +693,14 @@ function ask(e: PointerEvent): void {
 function onPicked(event: Picked): void {
   asked = false;
   picked = event;
+  showPicked(event);
+  if (again && lastPointer) return ask(lastPointer);
+  const acts = waiting;
+  waiting = [];
+  for (const act of acts) act();
+}
+
+function showPicked(event: Picked): void {
   if (!event.at || !lastPointer) {
     tip.hidden = true;
     editing.hovered([]);
@@ -629,6 +738,7 @@ view.canvas.addEventListener("pointerleave", () => {
   tip.hidden = true;
 });
 view.canvas.addEventListener("pointerdown", (e) => {
+  pressedAt = [e.clientX, e.clientY];
   if (e.shiftKey && pressed(editToggle)) {
     boxFrom = [e.clientX, e.clientY];
     view.rotates(false);
@@ -645,21 +755,40 @@ view.canvas.addEventListener("pointerup", (e) => {
   const rectangle: [number, number, number, number] = [x[0]!, y[0]!, x[1]!, y[1]!];
   link.send({ kind: "select", run: shown, matrix: view.matrix(), rectangle });
 });
-view.canvas.addEventListener("click", () => {
+let pressedAt: [number, number] = [0, 0];
+view.canvas.addEventListener("click", (e) => {
+  // Turning the view ends with a click too.
+  if (Math.hypot(e.clientX - pressedAt[0], e.clientY - pressedAt[1]) <= 4) settled(clicked);
+});
+
+function clicked(): void {
+  if (drawn && picked?.at) return draw([...drawn, pointed(picked)]);
   if (grabbed !== null && picked?.at) {
     editing.onEdit?.({ op: "move", node: grabbed, to: picked.at });
     grabbed = null;
     return;
   }
   if (!pressed(measureToggle) || !picked?.at) return;
-  const at = picked.node_first && picked.node_at ? picked.node_at : picked.at;
+  const at = pointed(picked);
   if (from) {
     link.send({ kind: "distance", from, to: at });
     from = null;
   } else {
     from = at;
   }
-});
+}
+
+/** The node under the pointer, else the place. */
+function pointed(at: Picked): Point {
+  return (at.node_first && at.node_at) || at.at!;
+}
+
+/** The guide that is being drawn. */
+let drawn: Point[] | null = null;
+function draw(points: Point[] | null): void {
+  drawn = points;
+  view.draws(points ?? []);
+}
 
 /* Keys and edits. */
 editing.onEdit = (edit) => link.send({ kind: "edit", run: shown, edit });
@@ -670,6 +799,11 @@ editing.onPoint = (nodes) => {
   view.grid.mark(nodes);
   view.redraw();
 };
+recovery.onRecover = (session) => link.send({ kind: "recover", session });
+recovery.onDiscard = (session) => link.send({ kind: "discard", session });
+candidates.onOpen = () => link.send({ kind: "candidates", run: shown });
+candidates.onShow = (index) => link.send({ kind: "candidate", run: shown, index });
+candidates.onTake = (index) => link.send({ kind: "take", run: shown, index });
 report.onStage = (stage) => link.send({ kind: "look", run: shown, stage });
 
 const OPERATIONS: Record<string, string> = { f: "flip", s: "split", c: "collapse", d: "drift" };
@@ -677,6 +811,10 @@ const OPERATIONS: Record<string, string> = { f: "flip", s: "split", c: "collapse
 document.addEventListener("keydown", (e) => {
   const typing = e.target instanceof HTMLInputElement || e.target instanceof HTMLTextAreaElement;
   if (e.key === "Enter" && (e.ctrlKey || e.metaKey)) return start();
+  if (e.key === "s" && (e.ctrlKey || e.metaKey)) {
+    e.preventDefault();
+    return save.click();
+  }
   if (typing || e.target instanceof HTMLSelectElement) return;
   const key = e.key.toLowerCase();
   if ((e.ctrlKey || e.metaKey) && key === "z") {
@@ -686,13 +824,19 @@ document.addEventListener("keydown", (e) => {
   }
   if (e.ctrlKey || e.metaKey || e.altKey) return;
   if (key === "escape") return cancelAll();
+  if (key === "enter" && drawn) {
+    // Not the button that has the focus.
+    e.preventDefault();
+    return settled(() => {
+      if (drawn) editing.onEdit?.({ op: "add_guide", points: drawn });
+      draw(null);
+    });
+  }
   if (key === "e") return editToggle.click();
   if (key === "m") return measureToggle.click();
   const side = sides.find((s) => s[2] === key);
   if (side) return look(side[0]);
-  if (pressed(editToggle)) editAt(key);
-  const op = OPERATIONS[key];
-  if (op && pressed(editToggle) && picked?.member) editing.onEdit?.({ op, nodes: picked.member });
+  if (pressed(editToggle)) settled(() => editAt(key));
 });
 
 /** The node that is moved by the next click. */
@@ -701,9 +845,18 @@ let grabbed: number | null = null;
 /** Edits of the node or place under the pointer. */
 function editAt(key: string): void {
   if (!picked?.at) return;
+  const op = OPERATIONS[key];
+  if (op && picked.member) editing.onEdit?.({ op, nodes: picked.member });
   if (key === "a") editing.onEdit?.({ op: "add_anchor", at: picked.at });
+  if (key === "l") {
+    if (!drawn) say("click the points of the guide; Enter lays it, Escape drops it");
+    draw([...(drawn ?? []), pointed(picked)]);
+  }
   const node = picked.node_first ? picked.node : null;
+  if (key === "r" && node === null && picked.member)
+    editing.onEdit?.({ op: "remove_guide", nodes: picked.member });
   if (node === null) return;
+  if (key === "r") editing.onEdit?.({ op: "remove_anchor", node });
   if (key === "p") editing.onEdit?.({ op: "pin", node });
   if (key === "u") editing.onEdit?.({ op: "unpin", node });
   if (key === "g") {
@@ -714,7 +867,8 @@ function editAt(key: string): void {
 
 function cancelAll(): void {
   grabbed = null;
-  if (going) link.send({ kind: "cancel" });
+  draw(null);
+  if (going || working !== null) link.send({ kind: "cancel" });
   editing.selected([], 0);
   view.grid.mark([]);
   view.redraw();
@@ -726,6 +880,7 @@ let chosen: "light" | "dark" | null = null;
 function dress(): void {
   const name = chosen ?? (dark.matches ? "dark" : "light");
   document.documentElement.dataset["theme"] = name;
+  candidates.draw();
   view.dress(THEMES[name]);
   viewB?.dress(THEMES[name]);
 }
@@ -752,6 +907,12 @@ Object.assign(window, {
   studio: {
     get seen() {
       return { firstFrame, firstGrid, liveFrames, shown, announced, drawn: view.drawn, runs, picked };
+    },
+    get speed() {
+      return { spent: view.spent, calls: view.calls };
+    },
+    get irregular() {
+      return view.grid.irregular();
     },
     project: (p: [number, number, number]) => view.project(p),
   },

@@ -3,7 +3,15 @@ export type Request = { "kind": "open",
 /**
  * Its name.
  */
-name: string, } | { "kind": "estimate", 
+name: string, } | { "kind": "choose", 
+/**
+ * Layers by name, those below them included.
+ */
+layers: Array<string>, 
+/**
+ * Objects by name.
+ */
+objects: Array<string>, } | { "kind": "estimate", 
 /**
  * Values of the form by key.
  */
@@ -71,7 +79,27 @@ run: number,
 /**
  * The edit as it stands in logs: `op`, `nodes` ...
  */
-edit: Record<string, unknown>, } | { "kind": "undo", 
+edit: Record<string, unknown>, } | { "kind": "candidates", 
+/**
+ * Which run.
+ */
+run: number, } | { "kind": "candidate", 
+/**
+ * Of which run.
+ */
+run: number, 
+/**
+ * Its place in the list, from 0.
+ */
+index: number, } | { "kind": "take", 
+/**
+ * Of which run.
+ */
+run: number, 
+/**
+ * Its place in the list, from 0.
+ */
+index: number, } | { "kind": "undo", 
 /**
  * Of which run.
  */
@@ -99,7 +127,15 @@ run: number, } | { "kind": "forget",
 /**
  * Which one.
  */
-run: number, };
+run: number, } | { "kind": "recover", 
+/**
+ * Its name.
+ */
+session: string, } | { "kind": "discard", 
+/**
+ * Its name.
+ */
+session: string, };
 export type Event = { "kind": "hello" } & Hello | { "kind": "surface" } & SurfaceInfo | { "kind": "estimate", 
 /**
  * Wanted member length, metres.
@@ -164,11 +200,27 @@ run: number,
 /**
  * They.
  */
-steps: Array<Step>, } | { "kind": "history", 
+steps: Array<Step>, } | { "kind": "recipe", 
+/**
+ * Number of the grid.
+ */
+run: number, 
+/**
+ * Values of the form by key.
+ */
+values: Record<string, unknown>, } | { "kind": "left", 
+/**
+ * They.
+ */
+sessions: Array<Left>, } | { "kind": "history", 
 /**
  * Which run.
  */
 run: number, 
+/**
+ * What was done before its file was written, in words, the oldest first; it cannot be undone.
+ */
+before: Array<string>, 
 /**
  * What was done, the oldest first.
  */
@@ -176,7 +228,19 @@ done: Array<Step>,
 /**
  * What was taken back, the next to be done again first.
  */
-undone: Array<Step>, } | { "kind": "fault", 
+undone: Array<Step>, } | { "kind": "working", 
+/**
+ * To which run.
+ */
+run: number, 
+/**
+ * What, in words.
+ */
+what: string, 
+/**
+ * Share that is done, 0 to 1.
+ */
+fraction: number, } | { "kind": "worked" } | { "kind": "fault", 
 /**
  * What was asked for: `open`, `generate`, `estimate`, `message` ...
  */
@@ -296,6 +360,10 @@ export type SurfaceInfo = {
  */
 name: string, 
 /**
+ * Whether it is built in.
+ */
+built_in: boolean, 
+/**
  * Where it comes from.
  */
 source: string, 
@@ -306,11 +374,11 @@ facts: Array<Fact>,
 /**
  * The parts, where there are several.
  */
-parts: Array<string>, 
+parts: Array<Part>, 
 /**
- * Names of its layers or objects, where the file has any.
+ * The objects of its file, where the format knows any.
  */
-objects: Array<string>, 
+objects: Array<Object>, 
 /**
  * What was skipped or repaired.
  */
@@ -323,6 +391,57 @@ edge_length: number,
  * Least and largest coordinates, metres.
  */
 bounds: [[number, number, number], [number, number, number]], };
+export type Part = { 
+/**
+ * Counted from 1.
+ */
+number: number, 
+/**
+ * Names of the file's objects that it is made of.
+ */
+name: string, 
+/**
+ * Number of faces.
+ */
+faces: number, 
+/**
+ * Area, square metres.
+ */
+area: number, 
+/**
+ * Why no grid can be laid on it.
+ */
+fault: string | null, };
+export type Object = { 
+/**
+ * Its name, or empty.
+ */
+name: string, 
+/**
+ * The layer it is on, or empty.
+ */
+layer: string, 
+/**
+ * What it is: `brep`, `mesh` ...
+ */
+kind: string, 
+/**
+ * Faces read from it; 0 where it was left out.
+ */
+faces: number, };
+export type Left = { 
+/**
+ * Its name.
+ */
+session: string, 
+/**
+ * When its last grid was kept: seconds since 1970, UTC.
+ */
+seconds: number, 
+/**
+ * A line on each of its grids.
+ */
+grids: Array<string>, };
 export type Fact = { 
 /**
  * Its name.
@@ -602,7 +721,7 @@ arrays: Array<ArrayHead>,
  * The scale, where values to color by are among them.
  */
 scale: Scale | null, };
-export type Shows = "surface" | "bubbles" | "live" | "grid" | "stage" | "colors";
+export type Shows = "surface" | "bubbles" | "live" | "grid" | "stage" | "candidates" | "colors";
 export type ArrayHead = { 
 /**
  * Its name.

@@ -29,6 +29,7 @@ export function gradient(whole: boolean): string {
 export interface Theme {
   background: string;
   surface: string;
+  chosen: string;
   lines: string;
   panels: string;
   members: string;
@@ -40,6 +41,7 @@ export const THEMES: Record<"light" | "dark", Theme> = {
   light: {
     background: "#f4f5f7",
     surface: "#dfe3e8",
+    chosen: "#7fb0e6",
     lines: "#7b8794",
     panels: "#ffffff",
     members: "#39424e",
@@ -49,6 +51,7 @@ export const THEMES: Record<"light" | "dark", Theme> = {
   dark: {
     background: "#14171b",
     surface: "#2a3037",
+    chosen: "#3f78b8",
     lines: "#6b7684",
     panels: "#323a44",
     members: "#c4ccd6",

@@ -1,4 +1,4 @@
-// What is known of a run: measures, histograms, stages, candidates, warnings.
+// What is known of a run: measures, histograms, stages, warnings.
 import { el, figure, svg } from "./dom";
 import type { Histogram, Measure, RunInfo, StageRow } from "./messages";
 
@@ -17,8 +17,7 @@ export class Report {
       ...warnings(info),
       ...groups(info.measures),
       section("Spread", info.histograms.map(histogram)),
-      section("Stages", [this.stages(info.stages)]),
-      section(`Candidates (${info.candidates.length})`, [candidates(info)], false),
+      ...(info.stages.length ? [section("Stages", [this.stages(info.stages)])] : []),
     );
   }
 
@@ -129,17 +128,4 @@ function histogram(h: Histogram): HTMLElement {
       ends.map((x) => el("span", {}, [`${figure(x)} ${h.unit}`])),
     ),
   ]);
-}
-
-function candidates(info: RunInfo): HTMLElement {
-  const head = ["Start", "heats", "merit", "Q", "r %"].map((t) => el("th", { scope: "col" }, [t]));
-  const rows = info.candidates.map((c, k) =>
-    el("tr", { class: k === 0 ? "kept" : "", title: `seed ${c.seed}` }, [
-      el("th", { scope: "row" }, [c.start + (k === 0 ? ", kept" : "")]),
-      ...[String(c.heats), c.merit.toFixed(2), c.fluency?.toFixed(2) ?? "–", (100 * c.cv).toFixed(1)].map(
-        (t) => el("td", {}, [t]),
-      ),
-    ]),
-  );
-  return el("table", { class: "stages" }, [el("thead", {}, [el("tr", {}, head)]), el("tbody", {}, rows)]);
 }

@@ -15,7 +15,7 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { BubbleLayer, GridLayer, SurfaceLayer } from "./layers";
+import { BubbleLayer, DrawnLayer, GridLayer, SurfaceLayer } from "./layers";
 import { type Frame, floats } from "./link";
 import { type Theme, THEMES } from "./palette";
 
@@ -29,6 +29,9 @@ const SIDES: Record<Side, Vector3> = {
   side: new Vector3(1, 0, 0),
 };
 
+/** Pixels of the canvas for one of the page; more cannot be told apart. */
+const SHARPEST = 2;
+
 export interface Sight {
   origin: [number, number, number];
   direction: [number, number, number];
@@ -38,9 +41,12 @@ export class View {
   readonly surface = new SurfaceLayer();
   readonly bubbles = new BubbleLayer();
   readonly grid: GridLayer;
+  readonly drawing = new DrawnLayer();
   readonly canvas = document.createElement("canvas");
-  /** Pictures drawn so far, and the last picture's time in milliseconds: for measuring. */
+  /** Pictures drawn so far, milliseconds spent on the last one here, and its draw calls: for measuring. */
   drawn = 0;
+  spent = 0;
+  calls = 0;
   onCamera: (() => void) | null = null;
   private readonly scene = new Scene();
   private readonly renderer: WebGLRenderer;
@@ -61,9 +67,10 @@ export class View {
   constructor(private readonly host: HTMLElement) {
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.localClippingEnabled = true;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, SHARPEST));
     this.grid = new GridLayer(this.theme);
     this.scene.add(this.surface.group, this.bubbles.points, this.grid.group);
+    this.scene.add(this.drawing.line, this.drawing.ends);
     this.scene.add(new AmbientLight("#ffffff", 1.3), this.sun);
     this.bubbles.points.visible = false;
     this.canvas.tabIndex = 0;
@@ -75,6 +82,8 @@ export class View {
       this.redraw();
       if (!this.quiet) this.onCamera?.();
     });
+    this.controls.addEventListener("start", () => this.sharpness(this.grid.large ? 1 : SHARPEST));
+    this.controls.addEventListener("end", () => this.sharpness(SHARPEST));
     this.controls.zoomToCursor = true;
     for (const camera of [this.perspective, this.parallel]) camera.up.set(0, 0, 1);
     new ResizeObserver(() => this.resize()).observe(host);
@@ -141,6 +150,12 @@ export class View {
     this.redraw();
   }
 
+  /** Let one part of the surface stand out; 0 for none. */
+  pointAt(part: number): void {
+    this.surface.pointAt(part);
+    this.redraw();
+  }
+
   /** Look at all of it again, from the same side. */
   whole(): void {
     this.look(this.side);
@@ -196,6 +211,12 @@ export class View {
     this.dress(this.theme);
   }
 
+  /** Show a line that is being drawn. */
+  draws(points: [number, number, number][]): void {
+    this.drawing.show(points);
+    this.redraw();
+  }
+
   /** The line of sight through a point of the canvas. */
   sight(x: number, y: number): Sight {
     const box = this.canvas.getBoundingClientRect();
@@ -233,13 +254,24 @@ export class View {
     this.canvas.remove();
   }
 
+  /** So many pixels of the canvas for one of the page at most: large grids are turned with fewer. */
+  private sharpness(most: number): void {
+    const pixels = Math.min(window.devicePixelRatio, most);
+    if (pixels === this.renderer.getPixelRatio()) return;
+    this.renderer.setPixelRatio(pixels);
+    this.resize();
+  }
+
   private draw(): void {
     this.sun.position
       .copy(this.camera.position)
       .add(new Vector3(0, 0, 1).multiplyScalar(this.camera.far / 6));
     this.sun.target.position.copy(this.controls.target);
     this.sun.target.updateMatrixWorld();
+    const began = performance.now();
     this.renderer.render(this.scene, this.camera);
+    this.spent = performance.now() - began;
+    this.calls = this.renderer.info.render.calls;
     this.drawn++;
   }
 
@@ -249,6 +281,7 @@ export class View {
     this.renderer.setSize(width, height, false);
     const pixels = this.renderer.getPixelRatio();
     this.grid.resize(width, height, pixels);
+    this.drawing.ends.material.uniforms["pixels"]!.value = pixels;
     const uniforms = this.bubbles.points.material.uniforms;
     uniforms["height"]!.value = height * pixels;
     uniforms["pixels"]!.value = pixels;

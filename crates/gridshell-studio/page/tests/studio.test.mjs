@@ -1,91 +1,26 @@
 // Drives the studio as a person would, in Debian's Chromium.
-//
-// Wants the command in GRIDSHELL (a path) and Chromium in CHROMIUM or /usr/bin/chromium; fails where one is missing.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { chromium } from "playwright-core";
+import * as drive from "./drive.mjs";
+import { PATIENCE, choose, downloaded, editing, finished, folder, generate, seen } from "./drive.mjs";
 
-const command = process.env.GRIDSHELL ?? "";
-const browserPath = process.env.CHROMIUM ?? "/usr/bin/chromium";
-const PATIENCE = { timeout: 120_000 };
-
-let server;
-let address;
+let studio;
 let browser;
-const folder = mkdtempSync(join(tmpdir(), "studio-"));
 const errors = [];
+const open = () => drive.open(browser, studio.address, errors);
 
 before(async () => {
-  assert.ok(existsSync(command), `GRIDSHELL names no command: "${command}"`);
-  assert.ok(
-    existsSync(browserPath),
-    `there is no Chromium at ${browserPath}: apt-get install chromium, or set CHROMIUM`,
-  );
-  const page = process.env.STUDIO_PAGE ? ["--page", process.env.STUDIO_PAGE] : [];
-  server = spawn(command, ["studio", "hexagon", "--no-browser", ...page]);
-  let said = "";
-  address = await new Promise((resolve, reject) => {
-    server.stdout.on("data", (data) => {
-      said += data;
-      const found = said.match(/http:\/\/\S+/);
-      if (found) resolve(found[0]);
-    });
-    server.on("exit", () => reject(new Error("the studio ended")));
-  });
-  browser = await chromium.launch({
-    executablePath: browserPath,
-    args: [
-      "--no-sandbox",
-      "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader",
-      "--ignore-gpu-blocklist",
-    ],
-  });
+  studio = await drive.start("hexagon", "--no-autosave");
+  browser = await drive.browse();
 });
 
 after(async () => {
   await browser?.close();
-  server?.removeAllListeners("exit");
-  server?.kill();
+  await drive.kill(studio);
   assert.deepEqual(errors, [], "errors in the page");
 });
-
-async function open() {
-  const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
-  page.on("pageerror", (error) => errors.push(String(error)));
-  await page.goto(address);
-  await page.waitForSelector("#generate:enabled", PATIENCE);
-  await page.waitForFunction(() => document.querySelector(".about dl dd"), null, PATIENCE);
-  return page;
-}
-
-const seen = (page) => page.evaluate(() => window.studio.seen);
-
-async function choose(page, name) {
-  await page.selectOption("#surface", name);
-  await page.waitForFunction((n) => document.title.startsWith(n), name, PATIENCE);
-}
-
-async function generate(page, values) {
-  const before = (await seen(page)).runs.at(-1)?.run ?? 0;
-  for (const [key, value] of Object.entries(values)) {
-    const field = page.locator(`[id="field-${key}"]`);
-    if ((await field.evaluate((f) => f.tagName)) === "SELECT") await field.selectOption(value);
-    else await field.fill(value);
-  }
-  await page.click("#generate");
-  return before;
-}
-
-async function finished(page, before) {
-  await page.waitForFunction((b) => (window.studio.seen.runs.at(-1)?.run ?? 0) > b, before, PATIENCE);
-  await page.waitForSelector("#generate:enabled", PATIENCE);
-  await page.waitForSelector(".headline", PATIENCE);
-}
 
 /** How many different colors the middle of the view has. */
 async function colors(page) {
@@ -136,23 +71,7 @@ test("an irregular node is picked, a member flipped, undone and redone; the grid
   await finished(page, await generate(page, { effort: "draft", edge_length: "0.7", method: "default" }));
   await page.getByRole("button", { name: "Top", exact: true }).click();
   await page.click("#edit");
-  const canvas = page.locator(".host canvas").first();
-  const box = await canvas.boundingBox();
-  const history = () => page.locator(".steps.history li.done").count();
-  // Members inside differ in what they allow: try some until one flips.
-  const flipped = async () => {
-    for (let k = 0; k < 40; k++) {
-      const [x, y] = [0.5 + 0.13 * Math.cos(k), 0.5 + 0.13 * Math.sin(1.7 * k)];
-      await page.mouse.move(box.x + x * box.width, box.y + y * box.height);
-      await page.waitForTimeout(150);
-      await page.keyboard.press("f");
-      await page.waitForTimeout(250);
-      if ((await history()) > 0) return true;
-    }
-    return false;
-  };
-  assert.ok(await flipped(), "no member could be flipped");
-  assert.equal(await history(), 1);
+  await editing(page, "f");
   const irregular = (await seen(page)).runs.at(-1).irregular;
   assert.ok(irregular > 0, "a flip leaves irregular nodes");
   await page.keyboard.press("Control+z");
@@ -168,13 +87,19 @@ test("an irregular node is picked, a member flipped, undone and redone; the grid
     PATIENCE,
   );
 
+  // One of them is pointed at.
+  const box = await page.locator(".host canvas").first().boundingBox();
+  const [x, y] = await page.evaluate(() => window.studio.project(window.studio.irregular[0]));
+  await page.mouse.move(box.x + x, box.y + y);
+  await page.waitForFunction(
+    () => window.studio.seen.picked?.facts.some((f) => f.value.includes("irregular")),
+    null,
+    PATIENCE,
+  );
+  assert.ok((await seen(page)).picked.node_first);
+
   const nodes = (await seen(page)).runs.at(-1).nodes;
-  const [download] = await Promise.all([
-    page.waitForEvent("download", PATIENCE),
-    page.selectOption("#export", "obj"),
-  ]);
-  const file = join(folder, "grid.obj");
-  await download.saveAs(file);
+  const file = await downloaded(page, "grid.obj", () => page.selectOption("#export", "obj"));
   const text = readFileSync(file, "utf8");
   assert.equal(text.split("\n").filter((l) => l.startsWith("v ")).length, nodes);
   await page.setInputFiles("#file", file);

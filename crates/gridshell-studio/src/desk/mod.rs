@@ -1,0 +1,266 @@
+//! What is on the desk: the open surface, the grids laid on it, and the run that goes on. All tabs see the same desk.
+
+mod answer;
+mod files;
+
+use crate::export::{self, Report};
+use crate::form::{self, Values};
+use crate::laid::Laid;
+use crate::laying::{self, Going};
+use crate::message::{Event, RunSummary};
+use crate::opened::Opened;
+use crate::session::{Ended, Session};
+use crate::told::{self, EXPORTS};
+use axum::body::Bytes;
+use gridshell::error::{Error, Result};
+use gridshell::job::{Job, Picture};
+use gridshell::recipe::Recipe;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use tokio::sync::{broadcast, watch};
+
+/// Runs that are kept; the oldest go first.
+const MOST_RUNS: usize = 12;
+/// Events that a slow tab may fall behind before it is sent everything anew.
+const BACKLOG: usize = 256;
+
+/// What goes to a tab.
+#[derive(Clone, Debug)]
+pub enum Outgoing {
+    /// A message.
+    Event(Event),
+    /// A binary frame.
+    Frame(Bytes),
+}
+
+#[derive(Default)]
+struct State {
+    opened: Option<Arc<Opened>>,
+    runs: Vec<Arc<Laid>>,
+    numbers: u32,
+    going: Option<Going>,
+    /// Another work that goes on: an edit, say.
+    work: Option<Job>,
+    /// The recipe of the grid that was opened last, and its number: what the form begins with.
+    recipe: Option<(u32, Recipe)>,
+    /// Where grids are kept against crashes.
+    session: Option<Session>,
+    /// What earlier sessions left.
+    left: Vec<Ended>,
+}
+
+/// The desk.
+pub struct Desk {
+    report: Option<Report>,
+    state: Mutex<State>,
+    events: broadcast::Sender<Outgoing>,
+    live: watch::Sender<Option<Bytes>>,
+}
+
+impl Desk {
+    /// An empty desk; `report` makes pages on its grids.
+    pub fn new(report: Option<Report>) -> Desk {
+        Desk {
+            report,
+            state: Mutex::default(),
+            events: broadcast::channel(BACKLOG).0,
+            live: watch::channel(None).0,
+        }
+    }
+
+    /// What is told to every tab from now on.
+    pub fn events(&self) -> broadcast::Receiver<Outgoing> {
+        self.events.subscribe()
+    }
+
+    /// The newest picture of the run that goes on.
+    pub fn live(&self) -> watch::Receiver<Option<Bytes>> {
+        self.live.subscribe()
+    }
+
+    /// Everything that a new tab has to know.
+    pub fn greeting(&self) -> Vec<Outgoing> {
+        let state = self.state();
+        let mut all = vec![Outgoing::Event(Event::Hello(told::hello(self.report.is_some())))];
+        if let Some(opened) = &state.opened {
+            all.extend(shown(opened));
+        }
+        all.extend(recipe(&state).map(Outgoing::Event));
+        all.push(Outgoing::Event(runs(&state)));
+        all.push(Outgoing::Event(left(&state)));
+        match &state.going {
+            Some(going) => all.push(Outgoing::Event(Event::Progress(going.progress()))),
+            None => all.push(Outgoing::Event(Event::Idle { run: None })),
+        }
+        all
+    }
+
+    fn generate(self: &Arc<Self>, values: &Values) -> Result<()> {
+        let opened = self.opened()?;
+        let recipe = self.recipe(values)?;
+        let mut state = self.state();
+        if state.going.is_some() {
+            return Err(Error::Option("a run goes on already: cancel it first".into()));
+        }
+        let going = laying::start(self, opened, recipe, state.numbers + 1);
+        state.numbers += 2;
+        self.tell(Event::Progress(going.progress()));
+        state.going = Some(going);
+        Ok(())
+    }
+
+    /// Ask whatever goes on to stop.
+    pub fn cancel(&self) {
+        let state = self.state();
+        let going = state.going.iter().map(|going| &going.job);
+        going.chain(&state.work).for_each(Job::cancel);
+    }
+
+    /// Begin something that may take a while: told of when it does, until it is dropped.
+    fn begin(self: &Arc<Self>, run: u32, what: &str) -> Result<Work> {
+        let job = Job::default();
+        {
+            let mut state = self.state();
+            if state.work.is_some() {
+                let message = "another edit goes on: wait for it, or cancel it";
+                return Err(Error::Option(message.into()));
+            }
+            state.work = Some(job.clone());
+        }
+        let (desk, what) = (Arc::downgrade(self), what.to_owned());
+        let watched = job.with_progress(move |p| {
+            let Some(desk) = desk.upgrade() else { return };
+            desk.tell(Event::Working { run, what: what.clone(), fraction: p.fraction });
+        });
+        watched.progress("begin", 0.0, Picture::None);
+        Ok(Work { desk: Arc::clone(self), job: watched })
+    }
+
+    /// The next grid's number.
+    fn number(&self) -> u32 {
+        let mut state = self.state();
+        state.numbers += 1;
+        state.numbers
+    }
+
+    /// The recipe that the form's values make.
+    fn recipe(&self, values: &Values) -> Result<Recipe> {
+        let state = self.state();
+        form::recipe(values, state.recipe.as_ref().map(|r| &r.1))
+    }
+
+    /// Keep a grid; against crashes, too, if it was laid here.
+    pub fn keep(&self, laid: Laid) {
+        let laid = Arc::new(laid);
+        let mut state = self.state();
+        state.runs.push(Arc::clone(&laid));
+        if let (Some(session), true) = (&state.session, laid.run.is_some()) {
+            session.save(&laid);
+        }
+        let surplus = state.runs.len().saturating_sub(MOST_RUNS);
+        let gone: Vec<u32> = state.runs.drain(..surplus).map(|r| r.number).collect();
+        for number in gone {
+            state.no_longer(number);
+        }
+        self.tell(runs(&state));
+    }
+
+    /// The run that went on has ended.
+    pub fn ended(&self, run: Option<u32>, fault: Option<String>) {
+        self.state().going = None;
+        self.live.send_replace(None);
+        if let Some(message) = fault {
+            self.tell(Event::Fault { about: "generate".into(), message });
+        }
+        self.tell(Event::Idle { run });
+    }
+
+    /// Tell every tab.
+    pub fn tell(&self, event: Event) {
+        self.send(Outgoing::Event(event));
+    }
+
+    /// Show the run that goes on.
+    pub fn show_live(&self, frame: Bytes) {
+        self.live.send_replace(Some(frame));
+    }
+
+    /// The grid of a run in the format of this extension.
+    ///
+    /// # Errors
+    /// [`Error::Option`] for an unknown run or format.
+    pub fn export(&self, run: u32, extension: &str) -> Result<(String, Vec<u8>)> {
+        if !EXPORTS.iter().any(|e| e.0 == extension) {
+            return Err(Error::Option(format!("no format `{extension}`")));
+        }
+        let laid = self.laid(run)?;
+        let file = export::file(&laid, extension, self.report)?;
+        if extension == "gridshell" {
+            self.state().no_longer(run);
+        }
+        Ok(file)
+    }
+
+    fn opened(&self) -> Result<Arc<Opened>> {
+        self.state().opened.clone().ok_or_else(|| Error::Option("open a surface first".into()))
+    }
+
+    fn laid(&self, run: u32) -> Result<Arc<Laid>> {
+        let found = self.state().runs.iter().find(|r| r.number == run).cloned();
+        found.ok_or_else(|| Error::Option(format!("there is no run {run} any more")))
+    }
+
+    fn send(&self, outgoing: Outgoing) {
+        // Without a tab nobody listens.
+        let _ = self.events.send(outgoing);
+    }
+
+    /// The state; a thread that panicked has left it whole: nothing in here is changed halfway.
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// What a fault looks like.
+pub fn fault(about: &str, message: &str) -> Outgoing {
+    Outgoing::Event(Event::Fault { about: about.into(), message: message.into() })
+}
+
+/// Something that goes on beside the run.
+struct Work {
+    desk: Arc<Desk>,
+    job: Job,
+}
+
+impl Drop for Work {
+    fn drop(&mut self) {
+        self.desk.state().work = None;
+        self.desk.tell(Event::Worked);
+    }
+}
+
+impl State {
+    /// A grid need not be kept against crashes any more.
+    fn no_longer(&self, number: u32) {
+        if let Some(session) = &self.session {
+            session.forget(number);
+        }
+    }
+}
+
+fn recipe(state: &State) -> Option<Event> {
+    let (run, recipe) = state.recipe.as_ref()?;
+    Some(Event::Recipe { run: *run, values: form::values(recipe) })
+}
+
+fn left(state: &State) -> Event {
+    Event::Left { sessions: state.left.iter().map(Ended::told).collect() }
+}
+
+fn runs(state: &State) -> Event {
+    let runs: Vec<RunSummary> = state.runs.iter().map(|r| r.summary()).collect();
+    Event::Runs { newest: runs.last().map(|r| r.run), runs }
+}
+
+fn shown(opened: &Opened) -> [Outgoing; 2] {
+    [Outgoing::Event(Event::Surface(opened.info.clone())), Outgoing::Frame(opened.frame.clone())]
+}
