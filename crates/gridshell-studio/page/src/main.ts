@@ -153,7 +153,8 @@ const link = new Link({
     status.textContent = yes ? "ready" : "no connection: is gridshell still running? Trying again …";
     status.classList.toggle("lost", !yes);
     if (!yes) return;
-    [asked, again, waiting] = [false, false, []];
+    [asked, again] = [false, false];
+    acts.clear();
     // What is shown may have changed while nobody listened.
     if (shown) setTimeout(() => shown && show(shown), 300);
   },
@@ -673,13 +674,18 @@ function compareWith(run: number): void {
 }
 
 /* The pointer. */
-/** Whether it moved while the answer was awaited, and what is to be done when all is answered. */
+/** Whether it moved while the answer was awaited. */
 let again = false;
-let waiting: (() => void)[] = [];
-/** Do what is about the place under the pointer, once it is known. */
+/** What is to be done with the answers to some questions. */
+const acts = new Map<number, () => void>();
+/** Do what is about the place that is under the pointer now, once it is known. */
 function settled(act: () => void): void {
-  if (asked) waiting.push(act);
-  else act();
+  if (!asked || !lastPointer) return act();
+  acts.set(++question, act);
+  pick(lastPointer);
+}
+function pick(e: PointerEvent): boolean {
+  return link.send({ kind: "pick", run: shown, ...view.sight(e.clientX, e.clientY), question });
 }
 function ask(e: PointerEvent): void {
   lastPointer = e;
@@ -687,17 +693,19 @@ function ask(e: PointerEvent): void {
   if (asked || !shown || shownLive) return;
   asked = true;
   question++;
-  if (!link.send({ kind: "pick", run: shown, ...view.sight(e.clientX, e.clientY), question })) asked = false;
+  asked = pick(e);
 }
 
 function onPicked(event: Picked): void {
-  asked = false;
   picked = event;
   showPicked(event);
-  if (again && lastPointer) return ask(lastPointer);
-  const acts = waiting;
-  waiting = [];
-  for (const act of acts) act();
+  const act = acts.get(event.question);
+  if (act) {
+    acts.delete(event.question);
+    return act();
+  }
+  asked = false;
+  if (again && lastPointer) ask(lastPointer);
 }
 
 function showPicked(event: Picked): void {
