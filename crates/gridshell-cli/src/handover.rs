@@ -45,6 +45,8 @@ pub fn write_all(outputs: &[PathBuf], file: &GridFile) -> Result<String, Failure
     if failed.is_empty() {
         return Ok(wrote.join("\n"));
     }
-    wrote.iter().for_each(|line| say::note(line));
+    for line in wrote {
+        say::note(&line);
+    }
     Err(Failure::other(failed.join("; ")))
 }

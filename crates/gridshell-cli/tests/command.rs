@@ -111,11 +111,16 @@ fn a_damaged_grid_file_is_told_with_its_line_and_what_is_wrong() {
         ("", "it is empty"),
         ("{}", "no grid file of gridshell: missing field `schema`"),
         (&text.replace("\"nodes\": [", "\"nodes\": [\n[1, 2],"), "no grid file of gridshell"),
-        (&text.replace("\"panels\": [", "\"panels\": [\n[0, 1, 999],"), "panel 0: it uses node 999"),
+        (
+            &text.replace("\"panels\": [", "\"panels\": [\n[0, 1, 999],"),
+            "panel 0: it uses node 999",
+        ),
         (&text.replace("gridshell.grid/1", "gridshell.grid/9"), "use the version of gridshell"),
     ] {
         fs::write(folder.path().join("b.gridshell"), damaged).expect("written");
-        for command in ["convert b.gridshell -o b.obj", "measure b.gridshell", "generate b.gridshell"] {
+        for command in
+            ["convert b.gridshell -o b.obj", "measure b.gridshell", "generate b.gridshell"]
+        {
             let run = gridshell(folder.path(), command);
             let said = stderr(&run);
             assert_eq!(code(&run), 3, "{command}: {said}");

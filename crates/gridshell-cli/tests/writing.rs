@@ -86,12 +86,16 @@ fn a_disk_that_is_full_leaves_the_old_files_and_nothing_else() {
 fn an_output_that_fails_does_not_keep_the_others_from_being_written() {
     let folder = folder(20);
     // No file may grow beyond twenty kilobytes: the plain one does not.
-    let args = "trap '' XFSZ; ulimit -f 40; exec \"$0\" convert grid.off -o a.ifc -o a.off -o b.ifc";
+    let args =
+        "trap '' XFSZ; ulimit -f 40; exec \"$0\" convert grid.off -o a.ifc -o a.off -o b.ifc";
     let shell = Command::new("sh").args(["-c", args, PROGRAM]).current_dir(folder.path()).output();
     let shell = shell.expect("a shell");
     let said = String::from_utf8_lossy(&shell.stderr);
     assert_eq!(shell.status.code(), Some(1), "{said}");
-    assert!(said.contains("wrote a.off") && said.contains("a.ifc") && said.contains("b.ifc"), "{said}");
+    assert!(
+        said.contains("wrote a.off") && said.contains("a.ifc") && said.contains("b.ifc"),
+        "{said}"
+    );
     assert_eq!(names(folder.path()), ["a.off", "grid.off"]);
 }
 

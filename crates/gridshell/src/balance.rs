@@ -85,11 +85,11 @@ pub fn balance(surface: &Surface, grid: &mut Grid, options: &Options, job: &Job)
         // No step along this direction lowers the energy: it is as low as rounding lets it be.
         report.converged = !lower || gain < LEAST_GAIN || report.last_move < options.settled;
         report.steps += 1;
+        let done = report.steps as f64 / options.max_steps as f64;
+        job.progress("relax", done, Picture::Grid(grid));
         if report.converged {
             break;
         }
-        let done = report.steps as f64 / options.max_steps as f64;
-        job.progress("relax", done, Picture::Grid(grid));
     }
     report
 }

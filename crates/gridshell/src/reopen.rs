@@ -41,8 +41,11 @@ pub struct Opened {
 /// [`Error::Io`], [`Error::Parse`] with line or element, [`Error::Surface`] where the panels are no manifold or the
 /// surface cannot carry them, [`Error::Option`] for a surface or format that is not known.
 pub fn open(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
-    let native = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gridshell"));
-    if native { open_document(path, surface, opening) } else { open_mesh(path, surface, opening) }
+    match path.extension() {
+        Some(e) if e.eq_ignore_ascii_case("gridshell") => open_document(path, surface, opening),
+        _ if io::reads_mesh(path) => open_mesh(path, surface, opening),
+        _ => Err(io::unknown(path, &format!("gridshell, {}", io::MESH_FORMATS))),
+    }
 }
 
 fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {

@@ -55,7 +55,7 @@ use soup::Soup;
 use std::path::Path;
 
 /// Extensions of the mesh formats.
-const MESH_FORMATS: &str = "obj, ply, stl, off, gltf, glb, json";
+pub(crate) const MESH_FORMATS: &str = "obj, ply, stl, off, gltf, glb, json";
 /// Extensions of all formats that hold a surface.
 const SURFACE_FORMATS: &str = "step, stp, 3dm, iges, igs, obj, ply, stl, off, gltf, glb, json";
 
@@ -213,7 +213,12 @@ fn extension(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
-fn unknown(path: &Path, known: &str) -> Error {
+/// Whether there is a reader of meshes for this extension.
+pub(crate) fn reads_mesh(path: &Path) -> bool {
+    mesh_reader(path).is_some()
+}
+
+pub(crate) fn unknown(path: &Path, known: &str) -> Error {
     Error::Option(format!(
         "{}: the extension `{}` is not one of {known}",
         path.display(),

@@ -38,7 +38,8 @@ fn refusal(path: &Path, bytes: &[u8], error: &serde_json::Error) -> Error {
 /// What is wrong with the text, without its place.
 fn told(error: &serde_json::Error) -> String {
     if error.is_eof() {
-        return "the file ends here, before the grid is whole: it is empty or was cut off".to_owned();
+        return "the file ends here, before the grid is whole: it is empty or was cut off"
+            .to_owned();
     }
     let said = error.to_string();
     let said = said.split(" at line ").next().unwrap_or_default();

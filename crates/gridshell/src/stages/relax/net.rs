@@ -50,11 +50,11 @@ pub fn net(surface: &Surface, grid: &mut Grid, options: &Relax, job: &Job) -> Re
         }
         report.steps += 1;
         report.converged = report.last_move < options.settled;
+        let done = report.steps as f64 / options.max_steps as f64;
+        job.progress("relax", done, Picture::Grid(grid));
         if report.converged {
             break;
         }
-        let done = report.steps as f64 / options.max_steps as f64;
-        job.progress("relax", done, Picture::Grid(grid));
     }
     report
 }
