@@ -91,11 +91,12 @@ fn read_log(path: &Path) -> Result<Log, Failure> {
 
 /// What was done and what is suggested, a line each.
 fn table(before: &Figures, edits: &[Step], suggested: &[Step], wrote: &str) -> String {
-    let mut text = format!("{:44} {:>9} {:>8} {:>8} {:>9}\n", "", "R", "mu", "Q", "irregular");
+    let mut text =
+        format!("{:44} {:>9} {:>8} {:>8} {:>8} {:>9}\n", "", "R", "mu", "Q", "merit", "irregular");
     let mut line = |what: &str, f: &Figures| {
         let q = f.fluency.map_or("inf".to_owned(), |q| format!("{q:.3}"));
-        let (r, mu, irregular) = (f.residual, f.mu, f.irregular);
-        let _ = writeln!(text, "{what:44} {r:9.2} {mu:8.4} {q:>8} {irregular:9}");
+        let Figures { residual: r, mu, merit, irregular, .. } = f;
+        let _ = writeln!(text, "{what:44} {r:9.2} {mu:8.4} {q:>8} {merit:8.3} {irregular:9}");
     };
     line("before", before);
     for (k, step) in edits.iter().enumerate() {

@@ -80,9 +80,15 @@ fn step(editor: &Editor, edit: &Edit, effect: &std::result::Result<Effect, Refus
     }
 }
 
+/// What an edit does to Q, R and mu; and to the merit, where that is not the change of Q alone.
 fn told(effect: &Effect) -> String {
-    let q = effect.fluency().map_or_else(|| "Q –".to_owned(), |q| format!("Q {q:+.2}"));
-    format!("{q}, R {:+.1}, \u{3bc} {:+.4}", effect.residual(), effect.mu())
+    let fluency = effect.fluency();
+    let q = fluency.map_or_else(|| "Q –".to_owned(), |q| format!("Q {q:+.2}"));
+    let told = format!("{q}, R {:+.1}, \u{3bc} {:+.4}", effect.residual(), effect.mu());
+    match effect.gain() {
+        gain if (gain - fluency.unwrap_or(0.0)).abs() < 0.005 => told,
+        gain => format!("{told}, merit {gain:+.2}"),
+    }
 }
 
 /// The middle of the nodes that an edit names.

@@ -235,6 +235,8 @@ function onFrame(frame: Frame): void {
       view.showSurface(frame);
       viewB?.showSurface(frame);
       shown = 0;
+      editing.run(0);
+      editing.history([], [], []);
       report.show(null);
       candidates.show(null);
       return;
