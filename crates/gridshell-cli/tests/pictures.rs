@@ -56,6 +56,8 @@ fn every_view_and_every_colour_gives_a_sheet_in_every_format() {
         assert_eq!(&png[1..4], b"PNG");
         // A4 at 150 dots to the inch.
         assert_eq!(png[16..24], [0, 0, 6, 218, 0, 0, 4, 217], "{colour}");
+        // The pixels were once stored as they are.
+        assert!(png.len() < 1754 * 1241 / 4, "{colour}: {} bytes", png.len());
         let pdf = fs::read(folder.path().join("c.pdf")).expect("written");
         assert!(pdf.starts_with(b"%PDF-") && pdf.ends_with(b"%%EOF"), "{colour}");
     }

@@ -53,9 +53,12 @@ fn packed(pixels: &Pixmap, drawing: &Drawing) -> Result<Vec<u8>, png::EncodingEr
     encoder.set_palette(palette.concat());
     // Neighbouring numbers are no neighbouring colours, so differences between pixels tell nothing.
     encoder.set_filter(png::FilterType::NoFilter);
-    if drawing.unit == Unit::Pixel {
-        encoder.set_compression(png::Compression::Best);
-    } else {
+    // The encoder's own choice counts on such differences, and gives up without.
+    encoder.set_compression(match drawing.unit {
+        Unit::Pixel => png::Compression::Best,
+        Unit::Millimetre => png::Compression::Default,
+    });
+    if drawing.unit == Unit::Millimetre {
         let per_metre = (1000.0 * PIXELS).round() as u32;
         let unit = png::Unit::Meter;
         encoder.set_pixel_dims(Some(png::PixelDimensions {
