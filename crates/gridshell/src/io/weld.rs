@@ -8,13 +8,12 @@
 use super::soup::Soup;
 use super::{LengthUnit, far, file, fins, merge, turn};
 use crate::error::{Error, Result};
+use crate::surface::nurbs::FARTHEST;
 use crate::surface::{PolygonMesh, Source, ear};
 use glam::DVec3;
 use std::collections::HashSet;
 use std::path::Path;
 
-/// Farther from the origin, metres, nothing is built, and coordinates have lost the digits for a grid.
-const FARTHEST: f64 = 1e9;
 /// A surface has more area than this share of its length squared.
 const NO_AREA: f64 = 1e-9;
 /// Faces with more corners are told where nearly all others have up to four: they often stand for openings.

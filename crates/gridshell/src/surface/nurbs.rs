@@ -10,6 +10,10 @@ use glam::{DVec2, DVec3};
 
 /// Highest degree accepted; the scratch arrays of the evaluation hold this much.
 pub const MAX_DEGREE: usize = 25;
+/// Coordinates beyond this, metres, have lost the digits for a grid: they are faults of a file.
+pub const FARTHEST: f64 = 1e9;
+/// The same in a file's unit, which may be the millimetre.
+pub const FARTHEST_IN_FILE: f64 = 1e12;
 /// Two ends nearer than this share of the size are the same place: a curve or surface closes there.
 const CLOSED_SHARE: f64 = 1e-6;
 
@@ -326,9 +330,23 @@ fn check_knots(degree: usize, knots: &[f64], count: usize) -> Result<()> {
     Ok(())
 }
 
+/// A point that a model may have: no coordinate is beyond `farthest` or no number.
+///
+/// # Errors
+/// [`Error::Surface`] telling the point.
+pub fn reach(p: DVec3, farthest: f64) -> Result<DVec3> {
+    if p.is_finite() && p.abs().max_element() <= farthest {
+        return Ok(p);
+    }
+    Err(Error::Surface(format!(
+        "a point at ({:e}, {:e}, {:e}) is out of reach ({farthest:e})",
+        p.x, p.y, p.z
+    )))
+}
+
 fn check_points(points: &[DVec3], weights: &[f64]) -> Result<()> {
-    if points.iter().any(|p| !p.is_finite()) {
-        return Err(Error::Surface("a control point is not a number".into()));
+    for &p in points {
+        reach(p, FARTHEST_IN_FILE)?;
     }
     if !weights.is_empty() && weights.len() != points.len() {
         return Err(Error::Surface(format!(

@@ -140,7 +140,7 @@ fn single(entry: &Entry, p: &Parameters) -> Result<Arc, Fault> {
         110 => {
             let n = p.numbers(0, 6)?;
             let (a, b) = (DVec3::new(n[0], n[1], n[2]), DVec3::new(n[3], n[4], n[5]));
-            Ok(Arc::whole(NurbsCurve::line(a, b)))
+            Ok(Arc::whole(NurbsCurve::line(p.reached(a)?, p.reached(b)?)))
         }
         112 => cubic(p).map(Arc::whole),
         126 => spline(p),

@@ -3,6 +3,8 @@
 use super::Fault;
 use super::records::Records;
 use super::tokens::{Delimiters, Field, fields, number};
+use crate::surface::nurbs::{FARTHEST_IN_FILE, reach};
+use glam::DVec3;
 use std::collections::HashMap;
 
 /// One directory entry.
@@ -140,6 +142,11 @@ impl Parameters {
 
     pub fn fault(&self, what: impl Into<String>) -> Fault {
         Fault::new(&self.place, what)
+    }
+
+    /// A point that is not too far away.
+    pub fn reached(&self, point: DVec3) -> Result<DVec3, Fault> {
+        reach(point, FARTHEST_IN_FILE).map_err(|e| self.fault(e.to_string()))
     }
 
     /// The number at `k`; 0 where it is left out before the end.

@@ -210,7 +210,7 @@ impl File<'_> {
             return Err(p.fault(format!("it has no vertex {place}")));
         }
         let n = p.numbers(1 + 3 * (place - 1), 3)?;
-        brep.vertices.push(matrix.transform_point3(DVec3::from_slice(&n)));
+        brep.vertices.push(p.reached(matrix.transform_point3(DVec3::from_slice(&n)))?);
         let id = brep.vertices.len() as u32 - 1;
         shared.vertices.insert((list, place), id);
         Ok(id)

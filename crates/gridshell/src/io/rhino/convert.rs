@@ -1,7 +1,7 @@
 //! The decoder's geometry as ours: millimetres become metres, analytic shapes exact rational splines.
 
 use crate::math::trig;
-use crate::surface::nurbs::{NurbsCurve, NurbsSurface};
+use crate::surface::nurbs::{self, NurbsCurve, NurbsSurface};
 use crate::surface::{Curve, Shape};
 use cadmpeg_ir::geometry::analytic::{CircleCurve, PlaneSurface};
 use cadmpeg_ir::geometry::nurbs as theirs;
@@ -27,6 +27,11 @@ pub(super) type Read<T> = std::result::Result<T, String>;
 /// A point in metres.
 pub(super) fn point(p: Point3) -> DVec3 {
     DVec3::new(p.x, p.y, p.z) * METRES
+}
+
+/// A point that is not too far away.
+pub(super) fn reached(p: DVec3) -> Read<DVec3> {
+    nurbs::reach(p, nurbs::FARTHEST).map_err(|e| e.to_string())
 }
 
 fn vector(v: &Vector3) -> DVec3 {
@@ -100,7 +105,8 @@ pub(super) fn curve(
         (SolvedCurveGeometry::Circle(c), Some(range)) => return arc(c, range).map(Some),
         (SolvedCurveGeometry::Line(l), Some([a, b])) => {
             let at = |t: f64| point(*l.origin()) + vector(l.direction().as_raw()) * (t * METRES);
-            return Ok(Some((Curve::Nurbs(NurbsCurve::line(at(a), at(b))), [0.0, 1.0])));
+            let [a, b] = [reached(at(a))?, reached(at(b))?];
+            return Ok(Some((Curve::Nurbs(NurbsCurve::line(a, b)), [0.0, 1.0])));
         }
         _ => return Err("its kind of curve is not known here".into()),
     };

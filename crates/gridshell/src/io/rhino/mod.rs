@@ -362,7 +362,7 @@ impl<'a> Reading<'a> {
             arenas.vertices.binary_search_by(|v| v.id.as_str().cmp(id)).map_err(missing)?;
         let point = &arenas.vertices[vertex].point;
         let at = arenas.points.binary_search_by(|p| p.id.cmp(point)).map_err(missing)?;
-        self.brep.vertices.push(convert::point(*arenas.points[at].position()));
+        self.brep.vertices.push(convert::reached(convert::point(*arenas.points[at].position()))?);
         let number = self.brep.vertices.len() as u32 - 1;
         self.vertices.insert(id.to_owned(), number);
         Ok(number)

@@ -3,7 +3,7 @@
 use super::shape;
 use crate::surface::Curve;
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
-use crate::surface::nurbs::NurbsCurve;
+use crate::surface::nurbs::{FARTHEST, NurbsCurve, reach};
 use glam::{DMat4, DVec3};
 use std::collections::{HashMap, HashSet};
 use step_io::scene::{Bound, Edge, Face, MappedInstance, ProductDef, Scene, Transform, Vertex};
@@ -17,8 +17,6 @@ const MOST_LEVELS: usize = 32;
 const AT_VERTEX: f64 = 1e-7;
 /// Two vertices at the ends of a closed curve are one place when nearer than this share of its size.
 const SAME_PLACE: f64 = 1e-6;
-/// Farther from the origin than this, in metres, lengths of a micrometre are lost in rounding.
-pub(super) const MOST_METRES: f64 = 1e9;
 /// Edges that follow each other in a loop may be this share of the loop's size apart.
 const LOOP_GAP: f64 = 1e-2;
 
@@ -286,10 +284,7 @@ impl<'m> Reading<'m> {
         if let Some(&known) = self.vertices.get(&key) {
             return Some(known);
         }
-        let at = place.transform_point3(vertex.point()?.xyz().into());
-        if !at.is_finite() || at.abs().max_element() > MOST_METRES {
-            return None;
-        }
+        let at = reach(place.transform_point3(vertex.point()?.xyz().into()), FARTHEST).ok()?;
         self.brep.vertices.push(at);
         let id = self.brep.vertices.len() as u32 - 1;
         self.vertices.insert(key, id);
@@ -306,15 +301,8 @@ pub(super) fn placed<'a>(
     points: impl Iterator<Item = &'a [f64; 3]>,
     place: DMat4,
 ) -> Result<Vec<DVec3>, String> {
-    let points: Vec<DVec3> = points.map(|&p| place.transform_point3(p.into())).collect();
-    let far = points.iter().find(|p| !p.is_finite() || p.abs().max_element() > MOST_METRES);
-    match far {
-        Some(p) => Err(format!(
-            "a point at ({:e}, {:e}, {:e}) m is out of reach ({MOST_METRES:e} m)",
-            p.x, p.y, p.z
-        )),
-        None => Ok(points),
-    }
+    let placed = points.map(|&p| reach(place.transform_point3(p.into()), FARTHEST));
+    placed.collect::<Result<_, _>>().map_err(|e| e.to_string())
 }
 
 /// Weights, or none where all are 1.
