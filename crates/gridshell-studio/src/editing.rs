@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 /// Suggestions made.
 const SUGGESTED: usize = 8;
+/// A change of the merit that differs from that of Q by less says nothing new.
+const ABOUT: f64 = 0.05;
 
 /// An editor for what came of a run on `model`.
 ///
@@ -80,15 +82,23 @@ fn step(editor: &Editor, edit: &Edit, effect: &std::result::Result<Effect, Refus
     }
 }
 
-/// What an edit does to Q, R and mu; and to the merit, where that is not the change of Q alone.
+/// What an edit does to Q, R and mu; and to the merit, where that is not about the change of Q.
 fn told(effect: &Effect) -> String {
     let fluency = effect.fluency();
-    let q = fluency.map_or_else(|| "Q –".to_owned(), |q| format!("Q {q:+.2}"));
-    let told = format!("{q}, R {:+.1}, \u{3bc} {:+.4}", effect.residual(), effect.mu());
-    match effect.gain() {
-        gain if (gain - fluency.unwrap_or(0.0)).abs() < 0.005 => told,
-        gain => format!("{told}, merit {gain:+.2}"),
+    let q = fluency.map_or_else(|| "–".to_owned(), |q| change(q, 2));
+    let told =
+        format!("Q {q}, R {}, \u{3bc} {}", change(effect.residual(), 1), change(effect.mu(), 4));
+    let (gain, q) = (effect.gain(), fluency.unwrap_or(0.0));
+    if gain * q >= 0.0 && (gain - q).abs() < ABOUT {
+        return told;
     }
+    format!("{told}, merit {}", change(gain, 2))
+}
+
+/// A change with its sign; one that rounds to nothing has none.
+fn change(by: f64, digits: usize) -> String {
+    let told = format!("{by:+.digits$}");
+    if told.contains(|c: char| c.is_ascii_digit() && c != '0') { told } else { "\u{b1}0".into() }
 }
 
 /// The middle of the nodes that an edit names.

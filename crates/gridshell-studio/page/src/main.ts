@@ -640,6 +640,7 @@ editToggle.onclick = () => {
   view.redraw();
   if (!on) draw(null);
   stage.classList.toggle("editing", on);
+  if (on) right.scrollTop = 0;
   if (on && shown) askSuggestions();
 };
 compareToggle.onclick = () => {

@@ -55,12 +55,13 @@ await picture("compare");
 await page.click("#compare");
 await page.selectOption("#color", "");
 
+await page.locator(".run").nth(1).click();
 await button("Top").click();
 await page.click("#edit");
+await page.waitForSelector(".step.good", PATIENCE);
 await page.waitForTimeout(1500);
-const [x, y] = await page.evaluate(() => window.studio.project(window.studio.irregular[0]));
-const box = await page.locator(".host canvas").first().boundingBox();
-await page.mouse.move(box.x + x, box.y + y);
+// A member with something to gain: the first suggested.
+await page.locator(".step.good").first().hover();
 await picture("edit");
 
 await point(0.36, 0.83);

@@ -10,10 +10,12 @@ use std::collections::BTreeSet;
 /// What lengths and lines may at best win by an edit that raises R, in units of what one more irregular node on the
 /// border costs.
 const HOPE: f64 = 1.0;
+/// Edits that gain less than this, in units of Q, are not worth a person's time.
+const LEAST_GAIN: f64 = 0.005;
 
 impl Editor {
     /// The `n` edits of a single member near irregular nodes that gain most (see [`Effect::gain`]), best first; fewer
-    /// where fewer gain anything.
+    /// where fewer gain as much as 0.005.
     pub fn suggest(&self, n: usize) -> Vec<(Edit, Effect)> {
         let edits = if n > 0 { self.hopeful() } else { Vec::new() };
         let mut found: Vec<(Edit, Effect)> = edits
@@ -23,7 +25,7 @@ impl Editor {
                 |bench, edit| {
                     let effect = bench.carry_out(&edit).ok();
                     bench.take_back();
-                    effect.filter(|e| e.gain() > 0.0).map(|e| (edit, e))
+                    effect.filter(|e| e.gain() >= LEAST_GAIN).map(|e| (edit, e))
                 },
             )
             .flatten()
