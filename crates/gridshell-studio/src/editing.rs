@@ -11,8 +11,6 @@ use std::sync::Arc;
 
 /// Suggestions made.
 const SUGGESTED: usize = 8;
-/// A change of the merit that differs from that of Q by less says nothing new.
-const ABOUT: f64 = 0.05;
 
 /// An editor for what came of a run on `model`.
 ///
@@ -82,17 +80,13 @@ fn step(editor: &Editor, edit: &Edit, effect: &std::result::Result<Effect, Refus
     }
 }
 
-/// What an edit does to Q, R and mu; and to the merit, where that is not about the change of Q.
+/// What an edit does to Q, R and mu; and to the merit, where that is not the change of Q.
 fn told(effect: &Effect) -> String {
-    let fluency = effect.fluency();
-    let q = fluency.map_or_else(|| "–".to_owned(), |q| change(q, 2));
+    let q = effect.fluency().map_or_else(|| "–".to_owned(), |q| change(q, 2));
+    let merit = change(effect.gain(), 2);
     let told =
         format!("Q {q}, R {}, \u{3bc} {}", change(effect.residual(), 1), change(effect.mu(), 4));
-    let (gain, q) = (effect.gain(), fluency.unwrap_or(0.0));
-    if gain * q >= 0.0 && (gain - q).abs() < ABOUT {
-        return told;
-    }
-    format!("{told}, merit {}", change(gain, 2))
+    if merit == q { told } else { format!("{told}, merit {merit}") }
 }
 
 /// A change with its sign; one that rounds to nothing has none.

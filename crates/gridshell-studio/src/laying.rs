@@ -9,13 +9,14 @@ use gridshell::job::{self, Job, Picture};
 use gridshell::pipeline;
 use gridshell::recipe::{Effort, Recipe, RegularizeMethod};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant};
 
 /// Pictures follow each other no faster: 30 a second.
 const PICTURE_EVERY: Duration = Duration::from_millis(33);
 /// Messages on progress likewise.
 const TELL_EVERY: Duration = Duration::from_millis(100);
-/// Another candidate is shown when the one that is shown says nothing for so long.
+/// Another thread's work is shown when the one that is shown says nothing for so long.
 const PATIENCE: Duration = Duration::from_millis(300);
 
 /// What is known of the run that goes on.
@@ -48,7 +49,7 @@ pub fn start(desk: &Arc<Desk>, opened: Arc<Opened>, recipe: Recipe, number: u32)
     let progress = Arc::new(Mutex::new(progress));
     let going = Going { job: job.clone(), progress: Arc::clone(&progress), began };
     let desk = Arc::clone(desk);
-    std::thread::spawn(move || {
+    thread::spawn(move || {
         let mut end = End { desk: Arc::clone(&desk), told: None };
         end.told = Some(lay_both(&desk, &opened, &recipe, &job, &progress, began, number));
     });
@@ -128,10 +129,10 @@ fn lay(
     Ok(number)
 }
 
-/// Chooses what is shown of the many candidates: one, until it falls silent.
+/// Chooses what is shown of the work on many candidates: that of one thread, until it falls silent.
 struct Watcher {
     number: u32,
-    candidate: usize,
+    worker: Option<ThreadId>,
     heard: Option<Instant>,
     shown: Option<Instant>,
     told: Option<Instant>,
@@ -143,7 +144,7 @@ impl Watcher {
     fn new(number: u32) -> Watcher {
         Watcher {
             number,
-            candidate: 0,
+            worker: None,
             heard: None,
             shown: None,
             told: None,
@@ -167,10 +168,11 @@ impl Watcher {
             told.seconds = began.elapsed().as_secs_f64();
             desk.tell(Event::Progress(told.clone()));
         }
-        if p.candidate != self.candidate && !long(self.heard, PATIENCE) {
+        let worker = Some(thread::current().id());
+        if worker != self.worker && !long(self.heard, PATIENCE) {
             return;
         }
-        (self.candidate, self.heard) = (p.candidate, Some(now));
+        (self.worker, self.heard) = (worker, Some(now));
         if !long(self.shown, PICTURE_EVERY) {
             return;
         }

@@ -48,6 +48,8 @@ pub struct Job {
     deadline: Option<Instant>,
     sink: Option<Sink>,
     candidate: usize,
+    /// The stage that the work is told to be of, where not the one that it tells.
+    stage: Option<&'static str>,
     /// Where in its stage the work is that reports 0 and 1.
     span: [f64; 2],
 }
@@ -59,6 +61,7 @@ impl Default for Job {
             deadline: None,
             sink: None,
             candidate: 0,
+            stage: None,
             span: [0.0, 1.0],
         }
     }
@@ -85,6 +88,12 @@ impl Job {
         Job { candidate, span, ..self.clone() }
     }
 
+    /// For a short part that is finished anyway: never stopped, and told as work on `stage` whatever it is itself.
+    #[must_use]
+    pub fn part_of(&self, stage: &'static str) -> Self {
+        Job { cancelled: Arc::default(), deadline: None, stage: Some(stage), ..self.clone() }
+    }
+
     /// Ask the job to stop; from any thread. The best grid so far is still finished and returned.
     pub fn cancel(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
@@ -100,6 +109,7 @@ impl Job {
         let Some(sink) = &self.sink else { return };
         let [from, to] = self.span;
         let fraction = from + (to - from) * fraction.clamp(0.0, 1.0);
+        let stage = self.stage.unwrap_or(stage);
         sink(&Progress { stage, fraction, candidate: self.candidate, picture });
     }
 }

@@ -22,8 +22,8 @@ import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js
 import { type Frame, floats, wholes } from "./link";
 import { paint, type Theme } from "./palette";
 
-/** Wide lines up to so many members; more of them are thinner on the screen than a pixel is wide anyway. */
-const MOST_WIDE = 24000;
+/** Members are lines of their own up to so many; more of them, and those that move, are edges of the panels. */
+const MOST_LINES = 24000;
 
 /** What is meant, and what does not move. */
 const MARKED = "#2f7fe0";
@@ -70,6 +70,55 @@ const DISC_FRAGMENT = `
     #include <colorspace_fragment>
   }`;
 
+const WIRE_VERTEX = `
+  attribute vec3 edge0;
+  attribute vec3 edge1;
+  attribute vec3 edge2;
+  uniform bool wireColored;
+  uniform vec3 wireColor;
+  varying vec3 vCorner;
+  flat varying vec3 vEdge0;
+  flat varying vec3 vEdge1;
+  flat varying vec3 vEdge2;`;
+
+/** Each vertex of a panel has a coordinate of its own that is 1 there, 0 on the edge across. */
+const WIRE_CORNER = `
+  int corner = gl_VertexID % 3;
+  vCorner = vec3(corner == 0, corner == 1, corner == 2);
+  vEdge0 = wireColored ? edge0 : wireColor;
+  vEdge1 = wireColored ? edge1 : wireColor;
+  vEdge2 = wireColored ? edge2 : wireColor;`;
+
+const WIRE_FRAGMENT = `
+  uniform float wire;
+  uniform float pixels;
+  varying vec3 vCorner;
+  flat varying vec3 vEdge0;
+  flat varying vec3 vEdge1;
+  flat varying vec3 vEdge2;`;
+
+/**
+ * Half of a member lies on each of its panels; its edge is smoothed over a pixel. Panels that are small on the screen
+ * have thinner members, and those thinner than a pixel are fainter.
+ */
+const WIRE_EDGE = `
+  if (wire > 0.0) {
+    vec3 step = fwidth(vCorner);
+    vec3 off = vCorner / step;
+    float nearest = min(off.x, min(off.y, off.z));
+    vec3 member = nearest == off.x ? vEdge0 : nearest == off.y ? vEdge1 : vEdge2;
+    float width = min(wire * pixels, 0.16 / max(step.x, max(step.y, step.z)));
+    float cover = min(width, 1.0) * clamp(0.5 * max(width, 1.0) + 0.5 - nearest, 0.0, 1.0);
+    gl_FragColor.rgb = mix(gl_FragColor.rgb, member, cover);
+  }`;
+
+interface Wire {
+  pixels: { value: number };
+  wire: { value: number };
+  wireColored: { value: boolean };
+  wireColor: { value: Color };
+}
+
 function discs(metric: boolean): Points<BufferGeometry, ShaderMaterial> {
   const material = new ShaderMaterial({
     uniforms: {
@@ -85,6 +134,20 @@ function discs(metric: boolean): Points<BufferGeometry, ShaderMaterial> {
   const points = new Points(new BufferGeometry(), material);
   points.frustumCulled = false;
   return points;
+}
+
+/** Draws the edges of panels as members `wire` pixels wide: much quicker than a line for each. */
+function wired(material: MeshLambertMaterial, uniforms: Wire): void {
+  material.onBeforeCompile = (shader) => {
+    Object.assign(shader.uniforms, uniforms);
+    shader.vertexShader = shader.vertexShader.replace(
+      "void main() {",
+      `${WIRE_VERTEX}\nvoid main() {\n${WIRE_CORNER}`,
+    );
+    shader.fragmentShader = shader.fragmentShader
+      .replace("void main() {", `${WIRE_FRAGMENT}\nvoid main() {`)
+      .replace("#include <colorspace_fragment>", `#include <colorspace_fragment>\n${WIRE_EDGE}`);
+  };
 }
 
 function put(geometry: BufferGeometry, name: string, array: Float32Array, width: number): void {
@@ -198,9 +261,14 @@ export class BubbleLayer {
 export class GridLayer {
   readonly group = new Group();
   private readonly panels: Mesh<BufferGeometry, MeshLambertMaterial>;
-  private readonly thin: LineSegments<BufferGeometry, LineBasicMaterial>;
-  private readonly wide: LineSegments2;
-  private readonly wideMaterial: LineMaterial;
+  private readonly wire: Wire = {
+    pixels: { value: 1 },
+    wire: { value: 0 },
+    wireColored: { value: false },
+    wireColor: { value: new Color() },
+  };
+  private readonly members: LineSegments2;
+  private readonly memberMaterial = new LineMaterial({ linewidth: 1.6 });
   private readonly features: LineSegments2;
   private readonly featureMaterial = new LineMaterial({ linewidth: 2.6 });
   private readonly nodes = discs(false);
@@ -222,12 +290,11 @@ export class GridLayer {
         polygonOffsetUnits: 2,
       }),
     );
-    this.thin = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
-    this.wideMaterial = new LineMaterial({ linewidth: 1.6 });
-    this.wide = new LineSegments2(new LineSegmentsGeometry(), this.wideMaterial);
+    wired(this.panels.material, this.wire);
+    this.members = new LineSegments2(new LineSegmentsGeometry(), this.memberMaterial);
     this.features = new LineSegments2(new LineSegmentsGeometry(), this.featureMaterial);
-    for (const part of [this.panels, this.thin, this.wide, this.features]) part.frustumCulled = false;
-    this.group.add(this.panels, this.thin, this.wide, this.features, this.fixed, this.marks, this.nodes);
+    for (const part of [this.panels, this.members, this.features]) part.frustumCulled = false;
+    this.group.add(this.panels, this.members, this.features, this.fixed, this.marks, this.nodes);
     this.fixed.visible = false;
     this.group.visible = false;
   }
@@ -239,7 +306,13 @@ export class GridLayer {
     const corners = gather(xyz, wholes(frame, "panels"));
     put(this.panels.geometry, "position", corners, 3);
     this.panels.geometry.setDrawRange(0, corners.length / 3);
-    this.lines(gather(xyz, wholes(frame, "members")));
+    const members = wholes(frame, "members");
+    this.members.visible = frame.shows !== "live" && members.length / 2 <= MOST_LINES;
+    if (this.members.visible) {
+      this.members.geometry.dispose();
+      this.members.geometry = new LineSegmentsGeometry();
+      this.members.geometry.setPositions(gather(xyz, members));
+    }
     const features = wholes(frame, "features");
     this.features.visible = features.length > 0;
     if (features.length) {
@@ -267,28 +340,14 @@ export class GridLayer {
     this.group.visible = true;
   }
 
-  private lines(ends: Float32Array): void {
-    const isWide = ends.length / 6 <= MOST_WIDE;
-    this.wide.visible = isWide;
-    this.thin.visible = !isWide;
-    if (!isWide) {
-      put(this.thin.geometry, "position", ends, 3);
-      return;
-    }
-    this.wide.geometry.dispose();
-    this.wide.geometry = new LineSegmentsGeometry();
-    this.wide.geometry.setPositions(ends);
-  }
-
   /** Without values to color by. */
   plain(): void {
     this.panels.material.vertexColors = false;
     this.panels.material.needsUpdate = true;
-    this.thin.material.vertexColors = false;
-    this.thin.material.needsUpdate = true;
-    this.wideMaterial.vertexColors = false;
-    this.wideMaterial.linewidth = this.width;
-    this.wideMaterial.needsUpdate = true;
+    this.memberMaterial.vertexColors = false;
+    this.memberMaterial.needsUpdate = true;
+    this.wire.wireColored.value = false;
+    this.widen(this.width);
     this.dressParts();
   }
 
@@ -298,32 +357,17 @@ export class GridLayer {
     this.plain();
     const values = floats(frame, "values");
     const color = new Color();
-    const at = (k: number, out: Float32Array, to: number) => {
-      paint(values[k] ?? NaN, scale.range, scale.whole, color).toArray(out, to);
-    };
+    const at = (k: number) => paint(values[k] ?? NaN, scale.range, scale.whole, color);
     if (scale.on === "members") {
-      const colors = new Float32Array(6 * values.length);
-      for (let k = 0; k < values.length; k++) {
-        at(k, colors, 6 * k);
-        colors.copyWithin(6 * k + 3, 6 * k, 6 * k + 3);
-      }
-      if (this.wide.visible) {
-        this.wide.geometry.setColors(colors);
-        this.wideMaterial.vertexColors = true;
-        this.wideMaterial.color.set("#ffffff");
-        this.wideMaterial.linewidth = this.width + 1.4;
-        this.wideMaterial.needsUpdate = true;
-      } else {
-        put(this.thin.geometry, "color", colors, 3);
-        this.thin.material.vertexColors = true;
-        this.thin.material.color.set("#ffffff");
-      }
+      this.widen(this.width + 1.4);
+      if (this.members.visible) this.colorMembers(at);
+      else this.colorWire(at);
       return;
     }
     const corners = wholes(this.frame, "panels");
     const colors = new Float32Array(3 * corners.length);
     for (let c = 0; c < corners.length; c++) {
-      at(scale.on === "panels" ? Math.floor(c / 3) : corners[c]!, colors, 3 * c);
+      at(scale.on === "panels" ? Math.floor(c / 3) : corners[c]!).toArray(colors, 3 * c);
     }
     put(this.panels.geometry, "color", colors, 3);
     this.panels.material.vertexColors = true;
@@ -331,9 +375,52 @@ export class GridLayer {
     this.panels.material.needsUpdate = true;
   }
 
+  private widen(width: number): void {
+    this.memberMaterial.linewidth = width;
+    this.wire.wire.value = this.members.visible ? 0 : width;
+  }
+
+  private colorMembers(at: (k: number) => Color): void {
+    const count = wholes(this.frame!, "members").length / 2;
+    const colors = new Float32Array(6 * count);
+    for (let k = 0; k < count; k++) {
+      at(k).toArray(colors, 6 * k);
+      colors.copyWithin(6 * k + 3, 6 * k, 6 * k + 3);
+    }
+    this.members.geometry.setColors(colors);
+    this.memberMaterial.vertexColors = true;
+    this.memberMaterial.color.set("#ffffff");
+    this.memberMaterial.needsUpdate = true;
+  }
+
+  private colorWire(at: (k: number) => Color): void {
+    const members = wholes(this.frame!, "members");
+    const panels = wholes(this.frame!, "panels");
+    const nodes = floats(this.frame!, "xyz").length / 3;
+    const key = (a: number, b: number) => Math.min(a, b) * nodes + Math.max(a, b);
+    const number = new Map<number, number>();
+    for (let k = 0; 2 * k < members.length; k++) number.set(key(members[2 * k]!, members[2 * k + 1]!), k);
+    // The edge across each corner, told to all three.
+    for (let edge = 0; edge < 3; edge++) {
+      const colors = new Float32Array(3 * panels.length);
+      for (let c = 0; c < panels.length; c += 3) {
+        const member = number.get(key(panels[c + ((edge + 1) % 3)]!, panels[c + ((edge + 2) % 3)]!));
+        const color = at(member ?? -1).convertLinearToSRGB();
+        for (let corner = c; corner < c + 3; corner++) color.toArray(colors, 3 * corner);
+      }
+      put(this.panels.geometry, `edge${edge}`, colors, 3);
+    }
+    this.wire.wireColored.value = true;
+  }
+
+  /** Whether it is one of many that follow each other. */
+  get live(): boolean {
+    return this.group.visible && this.frame?.shows === "live";
+  }
+
   /** Whether it has so many members that drawing it takes its time. */
   get large(): boolean {
-    return this.thin.visible;
+    return !this.members.visible;
   }
 
   /** Where the irregular nodes are. */
@@ -365,7 +452,7 @@ export class GridLayer {
 
   dress(theme: Theme, planes: Plane[]): void {
     this.theme = theme;
-    const materials = [this.panels.material, this.thin.material, this.wideMaterial, this.featureMaterial];
+    const materials = [this.panels.material, this.memberMaterial, this.featureMaterial];
     for (const m of materials) m.clippingPlanes = planes;
     this.featureMaterial.color.set(theme.chosen);
     for (const p of [this.nodes, this.marks, this.fixed]) {
@@ -377,14 +464,15 @@ export class GridLayer {
 
   private dressParts(): void {
     if (!this.panels.material.vertexColors) this.panels.material.color.set(this.theme.panels);
-    if (!this.thin.material.vertexColors) this.thin.material.color.set(this.theme.members);
-    if (!this.wideMaterial.vertexColors) this.wideMaterial.color.set(this.theme.members);
+    if (!this.memberMaterial.vertexColors) this.memberMaterial.color.set(this.theme.members);
+    this.wire.wireColor.value.set(this.theme.members).convertLinearToSRGB();
   }
 
   /** Sizes on the screen, in pixels. */
   resize(width: number, height: number, pixels: number): void {
-    this.wideMaterial.resolution.copy(new Vector2(width, height));
-    this.featureMaterial.resolution.copy(this.wideMaterial.resolution);
+    this.memberMaterial.resolution.copy(new Vector2(width, height));
+    this.featureMaterial.resolution.copy(this.memberMaterial.resolution);
+    this.wire.pixels.value = pixels;
     for (const p of [this.nodes, this.marks, this.fixed]) p.material.uniforms["pixels"]!.value = pixels;
   }
 }

@@ -32,6 +32,17 @@ const SIDES: Record<Side, Vector3> = {
 /** Pixels of the canvas for one of the page; more cannot be told apart. */
 const SHARPEST = 2;
 
+/** Whether this machine draws without a graphics card: then smoothing while things move costs half the pictures. */
+const SLOW = drawsInSoftware();
+
+function drawsInSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? String(gl!.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
 export interface Sight {
   origin: [number, number, number];
   direction: [number, number, number];
@@ -63,11 +74,11 @@ export class View {
   private ghost = false;
   private stale = true;
   private quiet = false;
+  private turning = false;
 
   constructor(private readonly host: HTMLElement) {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !SLOW, preserveDrawingBuffer: true });
     this.renderer.localClippingEnabled = true;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, SHARPEST));
     this.grid = new GridLayer(this.theme);
     this.scene.add(this.surface.group, this.bubbles.points, this.grid.group);
     this.scene.add(this.drawing.line, this.drawing.ends);
@@ -82,11 +93,12 @@ export class View {
       this.redraw();
       if (!this.quiet) this.onCamera?.();
     });
-    this.controls.addEventListener("start", () => this.sharpness(this.grid.large ? 1 : SHARPEST));
-    this.controls.addEventListener("end", () => this.sharpness(SHARPEST));
+    this.controls.addEventListener("start", () => this.turns(true));
+    this.controls.addEventListener("end", () => this.turns(false));
     this.controls.zoomToCursor = true;
     for (const camera of [this.perspective, this.parallel]) camera.up.set(0, 0, 1);
     new ResizeObserver(() => this.resize()).observe(host);
+    this.sharpen();
     this.resize();
     const loop = () => {
       requestAnimationFrame(loop);
@@ -125,6 +137,7 @@ export class View {
     this.bubbles.show(frame, this.theme);
     this.surface.veil(false, this.ghost);
     this.grid.group.visible = false;
+    this.sharpen();
     this.redraw();
   }
 
@@ -132,6 +145,7 @@ export class View {
     this.grid.show(frame);
     this.surface.veil(true, this.ghost);
     this.bubbles.points.visible = false;
+    this.sharpen();
     this.redraw();
   }
 
@@ -254,11 +268,18 @@ export class View {
     this.canvas.remove();
   }
 
-  /** So many pixels of the canvas for one of the page at most: large grids are turned with fewer. */
-  private sharpness(most: number): void {
-    const pixels = Math.min(window.devicePixelRatio, most);
+  private turns(yes: boolean): void {
+    this.turning = yes;
+    this.sharpen();
+  }
+
+  /** Fewer pixels for what moves where drawing is slow; what stands still there is smoothed by more of them. */
+  private sharpen(): void {
+    const moves = this.turning || this.bubbles.points.visible || this.grid.live;
+    const quick = moves && (SLOW || this.grid.large);
+    const pixels = quick ? 1 : SLOW ? SHARPEST : window.devicePixelRatio;
     if (pixels === this.renderer.getPixelRatio()) return;
-    this.renderer.setPixelRatio(pixels);
+    this.renderer.setPixelRatio(Math.min(pixels, SHARPEST));
     this.resize();
   }
 

@@ -170,5 +170,13 @@ test("the page works with the keyboard and at its least size", async () => {
   assert.ok(names.includes("surface") && names.some((n) => n.startsWith("field-")), names.join(", "));
   const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   assert.ok(over <= 0, "nothing sticks out at 1280 x 720");
+  // The keys of the edit mode once ran out of their panel.
+  await page.click("#edit");
+  const cut = await page.evaluate(() =>
+    [...document.querySelectorAll("aside, aside section, .toolbar, .keys")]
+      .filter((e) => e.scrollWidth > e.clientWidth)
+      .map((e) => e.className),
+  );
+  assert.deepEqual(cut, [], "nothing is cut off");
   await page.close();
 });

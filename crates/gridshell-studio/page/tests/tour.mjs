@@ -34,6 +34,7 @@ await page.waitForFunction(() => document.title.startsWith("objects"), null, PAT
 await page.locator("#parts tbody tr").nth(2).hover();
 await picture("parts");
 
+await page.waitForSelector(".toast", { state: "hidden", ...PATIENCE });
 await choose(page, "great-court");
 const paper = await generate(page, { effort: "draft", method: "paper" });
 await page.waitForFunction(() => window.studio.seen.liveFrames > 20, null, PATIENCE);

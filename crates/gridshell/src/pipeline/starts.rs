@@ -4,7 +4,7 @@ use crate::balance::{self, balance};
 use crate::bubbles::Bubbles;
 use crate::error::Result;
 use crate::grid::Grid;
-use crate::job::{Job, Picture};
+use crate::job::Job;
 use crate::merit::Sums;
 use crate::recipe::{self, Recipe};
 use crate::stages::{pack, triangulate};
@@ -147,8 +147,8 @@ fn lattices(
                 lattice.bubbles(surface, chart, length, recipe.pack.k_n, recipe.row_angle());
             let start = connect(surface, chart, &bubbles)?;
             let mut grid = start.clone();
-            balance(surface, &mut grid, &trial, &Job::default());
-            job.progress("pack", k as f64 / draws as f64, Picture::Grid(&grid));
+            let span = [k, k + 1].map(|k| k as f64 / draws as f64);
+            balance(surface, &mut grid, &trial, &job.of_candidate(0, span).part_of("pack"));
             let lambda = recipe.measure.lambda;
             let points = Sums::whole(&grid, surface, length, lambda).merit(lambda);
             Ok(Some((points, Start { bubbles, seed, report: None, grid: Some(start) })))

@@ -59,9 +59,7 @@ pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job:
             let done = (round as f64 + made as f64 * ROUNDS as f64 / trials as f64) / ROUNDS as f64;
             let [hot, cold] = TEMPERATURE;
             polish.temperature = hot * exp(ln(cold / hot) * done);
-            if k % 16 == 0 {
-                job.progress("regularize", done, Picture::Grid(&polish.state.grid));
-            }
+            job.progress("regularize", done, Picture::Grid(&polish.state.grid));
             made += usize::from(polish.trial(&mut report));
         }
     }

@@ -59,7 +59,7 @@ pub fn anneal(state: &mut State, options: &Regularize, k_n: f64, seed: u64, job:
             }
             let done = (round as f64 + k as f64 / (trials / ROUNDS) as f64) / ROUNDS as f64;
             search.temperature = hot * exp(ln(cold / hot) * done);
-            if k % 64 == 0 {
+            if k % 16 == 0 {
                 job.progress("regularize", done, Picture::Grid(&search.state.grid));
             }
             search.trial(&mut report);
