@@ -384,9 +384,13 @@ def case(what, *writers, joined="shared", text=None):
 # ---------------------------------------------------------------- one unit, one schema, one format each
 
 
+def cubic():
+    return bspline(lambda i, j: 0.4 * wave(i, j), (6, 5), (3, 3))
+
+
 def court():
     """A doubly curved patch with a notch and two holes: straight, elliptic and free edges."""
-    s = bspline(lambda i, j: 0.4 * wave(i, j), (6, 5), (3, 3))
+    s = cubic()
     (u, v) = (3.0, 2.0)
     at = [(0.02, 0.02), (0.98, 0.02), (0.98, 0.5), (0.8, 0.55), (0.98, 0.6), (0.98, 0.98), (0.02, 0.98)]
     outer = polygon2d(s, [(u * a, v * b) for a, b in at])
@@ -758,6 +762,16 @@ TASKS.append(("assembly", write_assembly))
 # ---------------------------------------------------------------- Rhino
 
 
+@case(
+    "the untrimmed patch of the Rhino files, in other formats",
+    step("patch_m"),
+    step("patch_mm", unit="MM"),
+    step("patch_in", unit="INCH"),
+)
+def patch():
+    return face(cubic(), *cubic().Bounds())
+
+
 def write_rhino():
     import rhino3dm as r
 
@@ -787,15 +801,13 @@ def write_rhino():
                 s.Points[i, j] = r.Point4d(*(scale * x for x in p), 1)
         return s
 
-    whole = bspline(lambda i, j: 0.4 * wave(i, j), (6, 5), (3, 3))
-    patch = face(whole, *whole.Bounds())
     units = {"mm": (r.UnitSystem.Millimeters, 1000.0), "m": (r.UnitSystem.Meters, 1.0)}
     units["in"] = (r.UnitSystem.Inches, 1 / 0.0254)
     for version, unit in [(2, "mm"), (3, "m"), (4, "in"), (5, "mm"), (6, "m"), (7, "mm"), (8, "in")]:
         system, scale = units[unit]
         name = f"patch_v{version}_{unit}"
         file(name, version, system, [("roof", "patch", surface(scale))])
-        row(f"{name}.3dm", f"one untrimmed patch, version {version}", patch, "shared")
+        row(f"{name}.3dm", f"one untrimmed patch, version {version}", patch(), "shared")
 
     ball = r.Brep.CreateFromSphere(r.Sphere(r.Point3d(0, 0, 0), 2))
     box = r.Brep.CreateFromBox(r.Box(r.BoundingBox(5, 0, 0, 8, 2, 1)))

@@ -5,6 +5,7 @@
 
 mod builtin;
 mod fixed;
+mod formats;
 mod hexagon;
 mod narrow;
 mod paper;
