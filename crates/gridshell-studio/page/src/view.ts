@@ -277,9 +277,9 @@ export class View {
   private sharpen(): void {
     const moves = this.turning || this.bubbles.points.visible || this.grid.live;
     const quick = moves && (SLOW || this.grid.large);
-    const pixels = quick ? 1 : SLOW ? SHARPEST : window.devicePixelRatio;
+    const pixels = quick ? 1 : SLOW ? SHARPEST : Math.min(window.devicePixelRatio, SHARPEST);
     if (pixels === this.renderer.getPixelRatio()) return;
-    this.renderer.setPixelRatio(Math.min(pixels, SHARPEST));
+    this.renderer.setPixelRatio(pixels);
     this.resize();
   }
 
