@@ -50,8 +50,7 @@ fn parse(mut text: impl Read) -> std::result::Result<Brep, (String, String)> {
     let mut bytes = Vec::new();
     text.read_to_end(&mut bytes).map_err(|e| ("file".to_owned(), e.to_string()))?;
     let bytes = trimmed::without(bytes);
-    let (model, report) =
-        step_io::read(bytes.as_slice()).map_err(|e| ("file".to_owned(), e.to_string()))?;
+    let (model, report) = step_io::read(bytes.as_slice()).map_err(|e| told(&e, &bytes))?;
     let scene = model.scene();
     let unit = scene.units().length.map(|u| u.to_si).filter(|m| m.is_finite() && *m > 0.0);
     let mut reading = Reading::new(&model, unit.unwrap_or(0.001));
@@ -75,6 +74,35 @@ fn parse(mut text: impl Read) -> std::result::Result<Brep, (String, String)> {
         return Err(("data section".into(), format!("no face that can be used{why}")));
     }
     Ok(brep)
+}
+
+/// Where and why the text could not be parsed.
+fn told(error: &step_io::Error, bytes: &[u8]) -> (String, String) {
+    use step_io::Error as E;
+    let (line, what) = match error {
+        E::UnexpectedEof { .. } if bytes.trim_ascii().is_empty() => {
+            return ("file".into(), "it is empty; export it again".into());
+        }
+        E::UnexpectedEof { .. } => {
+            let last = bytes.trim_ascii_end().split(|b| *b == b'\n').count();
+            (last as u32, "the file ends here, before its data do: it is cut off".into())
+        }
+        E::UnexpectedToken { expected, span, .. } if expected.contains("ISO-10303-21") => {
+            return (
+                format!("line {}", span.line),
+                "this is no STEP file: it does not begin with ISO-10303-21".into(),
+            );
+        }
+        E::UnexpectedToken { expected, found, span } => {
+            (span.line, format!("{found} where {expected} should be"))
+        }
+        E::DuplicateEntityId { id, line, first_line } => {
+            (*line, format!("entity #{id} is there already, at line {first_line}"))
+        }
+        E::Lex(e) => (e.span.line, e.to_string()),
+        other => return ("file".into(), other.to_string()),
+    };
+    (format!("line {line}"), format!("{what}; export it again"))
 }
 
 /// What the header says, and the unit.

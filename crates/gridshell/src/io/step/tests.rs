@@ -86,8 +86,17 @@ fn unknown_surface_is_named_not_swallowed() {
 
 #[test]
 fn text_that_is_no_step_file_is_an_error() {
-    for text in ["", "solid cube", "ISO-10303-21;HEADER;ENDSEC;DATA;#1=", "ISO-10303-21;"] {
-        assert!(parse(text.as_bytes()).is_err());
+    let whole = plate("$", "PLANE('',#93)");
+    let odd = whole.replacen("DATA;", "DATA;\n=;", 1);
+    for (text, place, what) in [
+        ("", "file", "it is empty"),
+        ("solid cube", "line 1", "it does not begin with ISO-10303-21"),
+        ("ISO-10303-21;", "line 1", "the file ends here"),
+        (&whole[..900], "line", "cut off; export it again"),
+        (&odd, "line", "should be; export it again"),
+    ] {
+        let (at, why) = parse(text.as_bytes()).unwrap_err();
+        assert!(at.starts_with(place) && why.contains(what), "{at}: {why}");
     }
 }
 
