@@ -2,26 +2,12 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import * as drive from "./drive.mjs";
 import { PATIENCE, choose, downloaded, finished, generate, seen } from "./drive.mjs";
 
 const files = join(import.meta.dirname, "../../../gridshell/tests/files");
-let studio;
-let browser;
-const errors = [];
-const open = () => drive.open(browser, studio.address, errors);
-
-before(async () => {
-  studio = await drive.start("hexagon", "--no-autosave");
-  browser = await drive.browse();
-});
-
-after(async () => {
-  await browser?.close();
-  await drive.kill(studio);
-  assert.deepEqual(errors, [], "errors in the page");
-});
+const open = drive.staged("hexagon", "--no-autosave");
 
 const opened = (page, name) => page.waitForFunction((n) => document.title.startsWith(n), name, PATIENCE);
 

@@ -6,6 +6,7 @@ import { spawn } from "node:child_process";
 import { existsSync, mkdtempSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { after, before } from "node:test";
 import { chromium } from "playwright-core";
 
 const command = process.env.GRIDSHELL ?? "";
@@ -64,6 +65,23 @@ export async function open(browser, address, errors) {
   await page.waitForSelector("#generate:enabled", PATIENCE);
   await page.waitForFunction(() => document.querySelector(".about dl dd"), null, PATIENCE);
   return page;
+}
+
+/** One studio and one browser for all tests of a file, which fail where the page has faults; opens a tab. */
+export function staged(...args) {
+  let studio;
+  let browser;
+  const errors = [];
+  before(async () => {
+    studio = await start(...args);
+    browser = await browse();
+  });
+  after(async () => {
+    await browser?.close();
+    await kill(studio);
+    assert.deepEqual(errors, [], "errors in the page");
+  });
+  return () => open(browser, studio.address, errors);
 }
 
 export const seen = (page) => page.evaluate(() => window.studio.seen);

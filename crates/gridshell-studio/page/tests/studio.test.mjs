@@ -2,25 +2,11 @@
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import * as drive from "./drive.mjs";
 import { PATIENCE, choose, downloaded, editing, finished, folder, generate, seen } from "./drive.mjs";
 
-let studio;
-let browser;
-const errors = [];
-const open = () => drive.open(browser, studio.address, errors);
-
-before(async () => {
-  studio = await drive.start("hexagon", "--no-autosave");
-  browser = await drive.browse();
-});
-
-after(async () => {
-  await browser?.close();
-  await drive.kill(studio);
-  assert.deepEqual(errors, [], "errors in the page");
-});
+const open = drive.staged("hexagon", "--no-autosave");
 
 /** How many different colors the middle of the view has. */
 async function colors(page) {
