@@ -4,6 +4,14 @@ use super::*;
 use crate::surface::{Sampling, tessellate};
 use glam::DVec3;
 
+/// The exact faces in a text.
+fn parse(text: &[u8]) -> std::result::Result<Brep, (String, String)> {
+    match super::parse(text)? {
+        Found::Faces(brep) => Ok(brep),
+        Found::Triangles(..) => panic!("triangles only"),
+    }
+}
+
 /// A plate of 4 x 2 (in the unit) in the plane z = 1 with a round hole of radius 0.5; the hole's circle
 /// is run backwards and begins a quarter past the circle's own start.
 fn plate(unit: &str, plane: &str) -> String {

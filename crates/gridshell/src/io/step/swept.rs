@@ -1,0 +1,225 @@
+//! Swept curves that have no end, or meet the axis that they turn about in their middle, cut to what their faces need.
+//!
+//! Vaults are swept from parabolas and hyperbolas, domes turned from ellipses and parabolas. The parser sweeps pieces
+//! of them only; how long a piece must be, the corners and control points of the faces tell.
+
+use super::text::{Draft, Record, Text, mentions, number, triple};
+use crate::math::trig;
+use glam::DVec3;
+use std::collections::BTreeSet;
+use std::f64::consts::TAU;
+
+/// What lies between a face and the points on its boundary.
+const BETWEEN: [&str; 17] = [
+    "FACE_BOUND",
+    "FACE_OUTER_BOUND",
+    "EDGE_LOOP",
+    "VERTEX_LOOP",
+    "ORIENTED_EDGE",
+    "EDGE_CURVE",
+    "VERTEX_POINT",
+    "SURFACE_CURVE",
+    "INTERSECTION_CURVE",
+    "SEAM_CURVE",
+    "BOUNDED_SURFACE_CURVE",
+    "TRIMMED_CURVE",
+    "B_SPLINE_CURVE_WITH_KNOTS",
+    "BEZIER_CURVE",
+    "QUASI_UNIFORM_CURVE",
+    "POLYLINE",
+    "",
+];
+/// A piece is longer than its face by this share at each end.
+const MARGIN: f64 = 0.02;
+/// A conic whose vertex is nearer to the axis than this share of its size has its own axis there.
+const ON_AXIS: f64 = 1e-9;
+
+/// The text with such curves trimmed; None where there are none.
+pub(super) fn mended(text: &Text) -> Option<Vec<u8>> {
+    let mut draft = Draft::of(text);
+    for surface in &text.records {
+        let turned = text.keyword(surface) == b"SURFACE_OF_REVOLUTION";
+        if !turned && text.keyword(surface) != b"SURFACE_OF_LINEAR_EXTRUSION" {
+            continue;
+        }
+        let Some((curve, ends)) = piece(text, surface, turned) else { continue };
+        let [a, b] = ends.map(|p| draft.add(&triple("CARTESIAN_POINT", p.to_array())));
+        let curve = format!("TRIMMED_CURVE('',#{curve},(#{a}),(#{b}),.T.,.CARTESIAN.)");
+        let trimmed = draft.add(&curve);
+        draft.put(text.list(surface)[1].clone(), format!("#{trimmed}"));
+    }
+    draft.done()
+}
+
+/// A conic section in its plane.
+struct Conic {
+    kind: Kind,
+    /// Half axes; of a parabola twice its focal length.
+    half: [f64; 2],
+    centre: DVec3,
+    x: DVec3,
+    y: DVec3,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Ellipse,
+    Parabola,
+    Hyperbola,
+}
+
+impl Conic {
+    fn of(text: &Text, record: &Record) -> Option<Conic> {
+        let list = text.list(record);
+        let length = |k: usize| number(text.words(list.get(k)?)).filter(|&x| x > 0.0);
+        let (kind, half) = match text.keyword(record) {
+            b"CIRCLE" => (Kind::Ellipse, [length(2)?; 2]),
+            b"ELLIPSE" => (Kind::Ellipse, [length(2)?, length(3)?]),
+            b"PARABOLA" => (Kind::Parabola, [2.0 * length(2)?; 2]),
+            b"HYPERBOLA" => (Kind::Hyperbola, [length(2)?, length(3)?]),
+            _ => return None,
+        };
+        let place = text.target(record, 1)?;
+        let way = |k: usize| Some(DVec3::from(text.xyz(text.target(place, k)?)?));
+        let z = way(2).unwrap_or(DVec3::Z).try_normalize()?;
+        let x = way(3).unwrap_or(DVec3::X).reject_from_normalized(z).try_normalize()?;
+        Some(Conic { kind, half, centre: way(1)?, x, y: z.cross(x) })
+    }
+
+    fn flat(&self, p: DVec3) -> [f64; 2] {
+        [(p - self.centre).dot(self.x), (p - self.centre).dot(self.y)]
+    }
+
+    /// The parameter of a point near to it: an angle, or what grows along y.
+    fn parameter(&self, p: DVec3) -> f64 {
+        let [x, y] = self.flat(p);
+        match self.kind {
+            Kind::Ellipse => trig::atan2(y / self.half[1], x / self.half[0]).rem_euclid(TAU),
+            Kind::Parabola | Kind::Hyperbola => y / self.half[1],
+        }
+    }
+
+    fn point(&self, t: f64) -> DVec3 {
+        let [a, b] = self.half;
+        let (x, y) = match self.kind {
+            Kind::Ellipse => (a * trig::cos(t), b * trig::sin(t)),
+            Kind::Parabola => (0.5 * a * t * t, a * t),
+            Kind::Hyperbola => (a * (1.0 + t * t).sqrt(), b * t),
+        };
+        self.centre + self.x * x + self.y * y
+    }
+
+    /// How far a point is from it, about.
+    fn off(&self, p: DVec3) -> f64 {
+        self.point(self.parameter(p)).distance(p)
+    }
+}
+
+/// The curve that a surface sweeps, and the ends of the piece of it that is needed; None where all of it is.
+fn piece(text: &Text, surface: &Record, turned: bool) -> Option<(u64, [DVec3; 2])> {
+    let curve = text.target(surface, 1)?;
+    let conic = Conic::of(text, curve)?;
+    if conic.kind == Kind::Ellipse && !turned {
+        return None;
+    }
+    let sweep = text.target(surface, 2)?;
+    let rim = rim(text, surface.id);
+    let way = |k: usize| Some(DVec3::from(text.xyz(text.target(sweep, k)?)?));
+    let ends = if turned {
+        let (at, axis) = (way(1)?, way(2).unwrap_or(DVec3::Z).try_normalize()?);
+        turned_piece(&conic, at, axis, &rim)?
+    } else {
+        let (normal, way) = (conic.x.cross(conic.y), way(1)?.try_normalize()?);
+        let steep = normal.dot(way);
+        if steep.abs() < 1e-6 {
+            return None;
+        }
+        let foot = |p: &DVec3| *p - way * ((*p - conic.centre).dot(normal) / steep);
+        wide(rim.iter().map(|p| conic.parameter(foot(p))))?
+    };
+    Some((curve.id, ends.map(|t| conic.point(t))))
+}
+
+/// The piece of a curve that is turned about an axis in its plane.
+fn turned_piece(conic: &Conic, at: DVec3, axis: DVec3, rim: &[DVec3]) -> Option<[f64; 2]> {
+    let out = conic.x.cross(conic.y).cross(axis).try_normalize()?;
+    // Every point has two images in the plane of the curve, one on each side of the axis.
+    let images = |p: &DVec3| {
+        let along = (*p - at).dot(axis);
+        let foot = at + axis * along;
+        let rho = p.distance(foot);
+        [foot + out * rho, foot - out * rho]
+    };
+    if conic.kind == Kind::Ellipse {
+        let [s, t] = crossings(conic, at, axis)?;
+        let near = |p: &DVec3| {
+            let [a, b] = images(p);
+            conic.parameter(if conic.off(a) <= conic.off(b) { a } else { b })
+        };
+        let inside = rim.iter().map(near).filter(|u| (s..=t).contains(u)).count();
+        return Some(if 2 * inside >= rim.len() { [s, t] } else { [t, s + TAU] });
+    }
+    let size = conic.half[0] + conic.half[1];
+    let own_axis = conic.x.cross(axis).length() < ON_AXIS
+        && (conic.centre - at).reject_from_normalized(axis).length() < ON_AXIS * size;
+    let side = |k: usize| rim.iter().map(|p| conic.off(images(p)[k])).sum::<f64>();
+    let k = usize::from(side(1) < side(0));
+    let [low, high] = wide(rim.iter().map(|p| conic.parameter(images(p)[k])))?;
+    // From the vertex outwards: the other half turns to the same surface.
+    Some(if own_axis { [0.0, low.abs().max(high.abs())] } else { [low, high] })
+}
+
+/// Where an axis in its plane meets an ellipse.
+fn crossings(conic: &Conic, at: DVec3, axis: DVec3) -> Option<[f64; 2]> {
+    let [a, b] = conic.half;
+    let ([x, y], [dx, dy]) = (conic.flat(at), conic.flat(conic.centre + axis));
+    let (x, y, dx, dy) = (x / a, y / b, dx / a, dy / b);
+    let (p, q, r) = (dx * dx + dy * dy, x * dx + y * dy, x * x + y * y - 1.0);
+    let root = q * q - p * r;
+    if root <= ON_AXIS * p {
+        return None;
+    }
+    let angle = |t: f64| trig::atan2(y + dy * t, x + dx * t).rem_euclid(TAU);
+    let (s, t) = (angle((-q - root.sqrt()) / p), angle((-q + root.sqrt()) / p));
+    Some([s.min(t), s.max(t)])
+}
+
+/// From the least to the most, and a little more.
+fn wide(parameters: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    let (low, high) =
+        parameters.fold((f64::MAX, f64::MIN), |(low, high), t| (low.min(t), high.max(t)));
+    let more = MARGIN * (high - low).max(0.01 * (low.abs() + high.abs()));
+    (low <= high).then_some([low - more, high + more])
+}
+
+/// Points on the boundary of all faces on a surface, or on offsets of it.
+fn rim(text: &Text, surface: u64) -> Vec<DVec3> {
+    let mut on = vec![surface];
+    for record in &text.records {
+        let over = [b"OFFSET_SURFACE".as_slice(), b"RECTANGULAR_TRIMMED_SURFACE"];
+        if over.contains(&text.keyword(record))
+            && text.target(record, 1).is_some_and(|r| on.contains(&r.id))
+        {
+            on.push(record.id);
+        }
+    }
+    let mut next: Vec<u64> = Vec::new();
+    for record in &text.records {
+        let face = [b"ADVANCED_FACE".as_slice(), b"FACE_SURFACE"].contains(&text.keyword(record));
+        if face && text.target(record, 2).is_some_and(|s| on.contains(&s.id)) {
+            let list = text.list(record);
+            next.extend(mentions(text.words(&list[1])));
+        }
+    }
+    let (mut points, mut seen) = (Vec::new(), BTreeSet::new());
+    while let Some(id) = next.pop() {
+        let Some(record) = text.get(id).filter(|_| seen.insert(id)) else { continue };
+        let keyword = text.keyword(record);
+        if keyword == b"CARTESIAN_POINT" {
+            points.extend(text.xyz(record).map(DVec3::from));
+        } else if BETWEEN.iter().any(|b| keyword == b.as_bytes()) {
+            next.extend(mentions(text.words(&record.list)));
+        }
+    }
+    points
+}
