@@ -31,6 +31,7 @@ pub mod offset;
 mod orient;
 pub mod parts;
 mod plan;
+mod poles;
 mod polygon;
 pub mod project;
 mod refine;

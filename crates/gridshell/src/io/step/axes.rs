@@ -11,8 +11,7 @@ const PARALLEL: f64 = 1e-9;
 /// The text with an x axis for each such placement; None where there is none.
 pub(super) fn mended(text: &Text) -> Option<Vec<u8>> {
     let mut draft = Draft::of(text);
-    let placements =
-        text.records.iter().filter(|r| text.keyword(r) == b"AXIS2_PLACEMENT_3D");
+    let placements = text.records.iter().filter(|r| text.keyword(r) == b"AXIS2_PLACEMENT_3D");
     for record in placements {
         let list = text.list(record);
         let way = |k: usize| {
@@ -39,8 +38,14 @@ mod tests {
         let text = "DATA;#1=DIRECTION('',(1.,0.,0.));#2=DIRECTION('',(0.,0.,1.));
 #3=AXIS2_PLACEMENT_3D('',#9,#1,$);#4=AXIS2_PLACEMENT_3D('',#9,#2,#2);#5=AXIS2_PLACEMENT_3D('',#9,#2,$);ENDSEC;";
         let done = String::from_utf8(mended(&Text::of(text.into())).unwrap()).unwrap();
-        assert!(done.contains("#9,#1,#6)") && done.contains("#6=DIRECTION('',(0.0,1.0,0.0))"), "{done}");
-        assert!(done.contains("#9,#2,#7)") && done.contains("#7=DIRECTION('',(1.0,0.0,0.0))"), "{done}");
+        assert!(
+            done.contains("#9,#1,#6)") && done.contains("#6=DIRECTION('',(0.0,1.0,0.0))"),
+            "{done}"
+        );
+        assert!(
+            done.contains("#9,#2,#7)") && done.contains("#7=DIRECTION('',(1.0,0.0,0.0))"),
+            "{done}"
+        );
         assert!(done.contains("#5=AXIS2_PLACEMENT_3D('',#9,#2,$)"), "{done}");
     }
 }

@@ -135,7 +135,8 @@ fn complete(bytes: &[u8], end: usize) -> bool {
 mod tests {
     use super::*;
 
-    const FILE: &str = "ISO-10303-21;HEADER;FILE_DESCRIPTION((''),'2;1');FILE_NAME('','',(''),(''),'','','');
+    const FILE: &str =
+        "ISO-10303-21;HEADER;FILE_DESCRIPTION((''),'2;1');FILE_NAME('','',(''),(''),'','','');
 FILE_SCHEMA(('X'));ENDSEC;DATA;#1=A('/*');/* #2=B(); */#3=C(#1);ENDSEC;END-ISO-10303-21;";
 
     fn cleaned(text: &[u8]) -> String {
@@ -158,7 +159,8 @@ FILE_SCHEMA(('X'));ENDSEC;DATA;#1=A('/*');/* #2=B(); */#3=C(#1);ENDSEC;END-ISO-1
 
     #[test]
     fn an_end_is_added_only_where_nothing_is_missing() {
-        let (whole, cut) = (FILE.replace("END-ISO-10303-21;", ""), FILE.split_at(FILE.len() - 40).0);
+        let (whole, cut) =
+            (FILE.replace("END-ISO-10303-21;", ""), FILE.split_at(FILE.len() - 40).0);
         assert!(cleaned(whole.as_bytes()).ends_with("END-ISO-10303-21;\n"));
         assert!(!cleaned(cut.as_bytes()).contains("END-ISO"));
         let dangling = whole.replace("C(#1)", "C(#9)");

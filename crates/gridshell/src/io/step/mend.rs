@@ -4,8 +4,8 @@ use super::text::Text;
 use super::{axes, envelope, facets, numbers, sets, swept, trimmed, units};
 
 /// In this order: what is added by one may be changed by the next.
-const STEPS: [fn(&Text) -> Option<Vec<u8>>; 6] =
-    [numbers::mended, units::mended, axes::mended, facets::mended, sets::mended, swept::mended];
+const STEPS: [fn(&Text) -> Option<Vec<u8>>; 5] =
+    [numbers::mended, units::mended, axes::mended, facets::mended, sets::mended];
 
 /// The text, and what was done that the user should know.
 pub(super) fn mended(bytes: Vec<u8>) -> (Text, Vec<String>) {
@@ -16,6 +16,10 @@ pub(super) fn mended(bytes: Vec<u8>) -> (Text, Vec<String>) {
             text = Text::of(changed);
         }
     }
-    let bytes = trimmed::without(std::mem::take(&mut text.bytes));
-    (Text::of(bytes), notes)
+    text = Text::of(trimmed::without(text.bytes));
+    // What is swept may have been swept under a trimmed surface.
+    if let Some(changed) = swept::mended(&text) {
+        text = Text::of(changed);
+    }
+    (text, notes)
 }

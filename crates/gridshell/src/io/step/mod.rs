@@ -103,7 +103,8 @@ fn parse(mut text: impl Read) -> std::result::Result<Found, (String, String)> {
     }
     let why = brep.notes.iter().take(3).cloned().collect::<Vec<_>>().join("; ");
     let why = if why.is_empty() { why } else { format!(" ({why})") };
-    let what = if model.header().schema.to_string().starts_with("IFC") || text.has(&["IFCPROJECT"]) {
+    let what = if model.header().schema.to_string().starts_with("IFC") || text.has(&["IFCPROJECT"])
+    {
         "it is an IFC file; export STEP, or a mesh".into()
     } else {
         format!("no face that can be used{why}; export surfaces, not curves or points alone")
@@ -123,9 +124,14 @@ fn told(error: &step_io::Error, bytes: &[u8]) -> (String, String) {
             (last as u32, "the file ends here, before its data do: it is cut off".into())
         }
         _ if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\x1f\x8b") => {
-            return ("file".into(), "it is a compressed file; unpack it, and give what is in it".into());
+            return (
+                "file".into(),
+                "it is a compressed file; unpack it, and give what is in it".into(),
+            );
         }
-        E::UnexpectedToken { expected, span, .. } if expected.contains("ISO-10303-21") => {
+        E::UnexpectedToken { span, .. }
+            if !bytes.trim_ascii_start().starts_with(b"ISO-10303-21") =>
+        {
             return (
                 format!("line {}", span.line),
                 "this is no STEP file: it does not begin with ISO-10303-21".into(),

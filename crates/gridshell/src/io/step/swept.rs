@@ -3,7 +3,7 @@
 //! Vaults are swept from parabolas and hyperbolas, domes turned from ellipses and parabolas. The parser sweeps pieces
 //! of them only; how long a piece must be, the corners and control points of the faces tell.
 
-use super::text::{Draft, Record, Text, mentions, number, triple};
+use super::text::{Draft, Record, Text, list_of, mentions, number, real, triple};
 use crate::math::trig;
 use glam::DVec3;
 use std::collections::BTreeSet;
@@ -42,10 +42,14 @@ pub(super) fn mended(text: &Text) -> Option<Vec<u8>> {
         if !turned && text.keyword(surface) != b"SURFACE_OF_LINEAR_EXTRUSION" {
             continue;
         }
-        let Some((curve, ends)) = piece(text, surface, turned) else { continue };
-        let [a, b] = ends.map(|p| draft.add(&triple("CARTESIAN_POINT", p.to_array())));
-        let curve = format!("TRIMMED_CURVE('',#{curve},(#{a}),(#{b}),.T.,.CARTESIAN.)");
-        let trimmed = draft.add(&curve);
+        let Some((curve, conic, ends)) = piece(text, surface, turned) else { continue };
+        let trimmed = if turned {
+            let mut end = |t: f64| draft.add(&triple("CARTESIAN_POINT", conic.point(t).to_array()));
+            let [a, b] = ends.map(&mut end);
+            draft.add(&format!("TRIMMED_CURVE('',#{curve},(#{a}),(#{b}),.T.,.CARTESIAN.)"))
+        } else {
+            spline(&mut draft, &conic, ends)
+        };
         draft.put(text.list(surface)[1].clone(), format!("#{trimmed}"));
     }
     draft.done()
@@ -109,6 +113,29 @@ impl Conic {
         self.centre + self.x * x + self.y * y
     }
 
+    /// Where its tangents at two parameters meet, and the weight of that place between two of weight 1.
+    fn pull(&self, s: f64, t: f64) -> (DVec3, f64) {
+        let [a, b] = self.half;
+        let (x, y, weight) = match self.kind {
+            Kind::Ellipse => {
+                let (middle, half) = (0.5 * (s + t), trig::cos(0.5 * (t - s)));
+                (a * trig::cos(middle) / half, b * trig::sin(middle) / half, half)
+            }
+            Kind::Parabola => (0.5 * a * s * t, 0.5 * a * (s + t), 1.0),
+            // With s and t as sinh of the usual parameters: cosh of half their difference.
+            Kind::Hyperbola => {
+                let (p, q) = ((1.0 + s * s).sqrt(), (1.0 + t * t).sqrt());
+                let weight = (0.5 * (1.0 + p * q - s * t)).sqrt();
+                (
+                    a * 0.5 * (p + q) / (weight * weight),
+                    b * 0.5 * (s + t) / (weight * weight),
+                    weight,
+                )
+            }
+        };
+        (self.centre + self.x * x + self.y * y, weight)
+    }
+
     /// How far a point is from it, about.
     fn off(&self, p: DVec3) -> f64 {
         self.point(self.parameter(p)).distance(p)
@@ -116,11 +143,16 @@ impl Conic {
 }
 
 /// The curve that a surface sweeps, and the ends of the piece of it that is needed; None where all of it is.
-fn piece(text: &Text, surface: &Record, turned: bool) -> Option<(u64, [DVec3; 2])> {
+fn piece(text: &Text, surface: &Record, turned: bool) -> Option<(u64, Conic, [f64; 2])> {
     let curve = text.target(surface, 1)?;
     let conic = Conic::of(text, curve)?;
     if conic.kind == Kind::Ellipse && !turned {
-        return None;
+        // Only offsets of it want it in another form.
+        let offset = |r: &&Record| {
+            text.keyword(r) == b"OFFSET_SURFACE"
+                && text.target(r, 1).is_some_and(|basis| basis.id == surface.id)
+        };
+        return text.records.iter().find(offset).map(|_| (curve.id, conic, [0.0, TAU]));
     }
     let sweep = text.target(surface, 2)?;
     let rim = rim(text, surface.id);
@@ -137,7 +169,32 @@ fn piece(text: &Text, surface: &Record, turned: bool) -> Option<(u64, [DVec3; 2]
         let foot = |p: &DVec3| *p - way * ((*p - conic.centre).dot(normal) / steep);
         wide(rim.iter().map(|p| conic.parameter(foot(p))))?
     };
-    Some((curve.id, ends.map(|t| conic.point(t))))
+    Some((curve.id, conic, ends))
+}
+
+/// A piece of a conic as a rational spline of degree 2: a whole ellipse in quarters, the others in one piece.
+fn spline(draft: &mut Draft, conic: &Conic, [s, t]: [f64; 2]) -> u64 {
+    let pieces = if conic.kind == Kind::Ellipse { 4 } else { 1 };
+    let (mut points, mut weights) = (vec![conic.point(s)], vec![1.0]);
+    for k in 0..pieces {
+        let at = |k: usize| s + (t - s) * k as f64 / pieces as f64;
+        let (middle, weight) = conic.pull(at(k), at(k + 1));
+        points.extend([middle, conic.point(at(k + 1))]);
+        weights.extend([weight, 1.0]);
+    }
+    let ids: Vec<u64> =
+        points.iter().map(|p| draft.add(&triple("CARTESIAN_POINT", p.to_array()))).collect();
+    let join = |words: Vec<String>| words.join(",");
+    let times =
+        join((0..=pieces).map(|k| if k % pieces == 0 { "3" } else { "2" }.to_owned()).collect());
+    let knots = join((0..=pieces).map(|k| format!("{k}.")).collect());
+    let weights = join(weights.into_iter().map(real).collect());
+    draft.add(&format!(
+        "(BOUNDED_CURVE()B_SPLINE_CURVE(2,{},.UNSPECIFIED.,.F.,.F.)B_SPLINE_CURVE_WITH_KNOTS(({times}),({knots}),\
+         .UNSPECIFIED.)CURVE()GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_CURVE(({weights}))\
+         REPRESENTATION_ITEM(''))",
+        list_of(&ids)
+    ))
 }
 
 /// The piece of a curve that is turned about an axis in its plane.

@@ -227,10 +227,15 @@ fn record(bytes: &[u8], statement: &Range<usize>) -> Option<Record> {
     let id = reference(words[..equals].trim_ascii())?;
     let open = equals + words[equals..].iter().position(|&b| b == b'(')?;
     let close = words.iter().rposition(|&b| b == b')')?;
-    let from = equals + 1 + words[equals + 1..].iter().take_while(|b| b.is_ascii_whitespace()).count();
+    let from =
+        equals + 1 + words[equals + 1..].iter().take_while(|b| b.is_ascii_whitespace()).count();
     let name = words[from..open.max(from)].trim_ascii_end().len();
     let at = |k: usize| statement.start + k;
-    (close > open).then(|| Record { id, keyword: at(from)..at(from + name), list: at(open)..at(close + 1) })
+    (close > open).then(|| Record {
+        id,
+        keyword: at(from)..at(from + name),
+        list: at(open)..at(close + 1),
+    })
 }
 
 /// What stands between the commas of a list; nothing of what is no list.
@@ -299,7 +304,8 @@ mod tests {
     #[test]
     fn entities_are_found_with_their_parts_whatever_their_names_hold() {
         let text = Text::of(
-            b"ISO;DATA;\n#7 = PLANE ('a;(,)''#1', #3 , (1.,2.) ) ;#3=(A()B('x',(#7)));\nENDSEC;".to_vec(),
+            b"ISO;DATA;\n#7 = PLANE ('a;(,)''#1', #3 , (1.,2.) ) ;#3=(A()B('x',(#7)));\nENDSEC;"
+                .to_vec(),
         );
         assert_eq!(text.records.len(), 2);
         let plane = text.get(7).unwrap();

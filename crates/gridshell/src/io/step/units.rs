@@ -104,7 +104,8 @@ fn scaled(draft: &mut Draft, record: &Record, scale: f64) {
         let mut out = String::new();
         // Numbers between brackets, commas and blanks.
         for piece in words.split_inclusive(|c: char| "(), \r\n\t".contains(c)) {
-            let cut = piece.len() - usize::from(piece.ends_with(|c: char| "(), \r\n\t".contains(c)));
+            let cut =
+                piece.len() - usize::from(piece.ends_with(|c: char| "(), \r\n\t".contains(c)));
             match number(piece[..cut].as_bytes()) {
                 Some(x) => out.push_str(&real(x * scale)),
                 None => out.push_str(&piece[..cut]),
