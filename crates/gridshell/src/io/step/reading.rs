@@ -289,7 +289,7 @@ impl<'m> Reading<'m> {
     /// vertices: some programs write them as they come.
     fn strung(&self, coedges: &[Coedge]) -> Option<Vec<Coedge>> {
         let ends = |edge: u32| self.brep.edges[edge as usize].ends;
-        let first = *coedges.first()?;
+        let first = *coedges.first().filter(|_| coedges.len() <= MOST_STRUNG)?;
         let (mut rest, mut strung) = (coedges[1..].to_vec(), vec![first]);
         let start = ends(first.edge)[usize::from(first.reversed)];
         let mut at = ends(first.edge)[usize::from(!first.reversed)];
@@ -300,7 +300,7 @@ impl<'m> Reading<'m> {
             at = ends(edge)[usize::from(!reversed)];
             strung.push(Coedge { edge, reversed });
         }
-        (at == start && coedges.len() <= MOST_STRUNG).then_some(strung)
+        (at == start).then_some(strung)
     }
 
     fn control_points(&self, loops: &[Vec<Coedge>]) -> Vec<DVec3> {

@@ -22,8 +22,9 @@ const ON_SURFACES: [&[u8]; 4] =
 /// Curves whose third parameter is a list of control points.
 const SPLINES: [&[u8]; 4] =
     [b"B_SPLINE_CURVE_WITH_KNOTS", b"BEZIER_CURVE", b"QUASI_UNIFORM_CURVE", b"UNIFORM_CURVE"];
-/// Curves of curves are followed this far, and no further.
+/// Curves of curves are followed this far, and no further; nor are more of them, in one boundary.
 const MOST_LEVELS: usize = 8;
+const MOST_CURVES: usize = 10_000;
 
 /// The text with such surfaces as faces; None where there are none.
 pub(super) fn mended(text: &Text) -> Option<Vec<u8>> {
@@ -65,9 +66,9 @@ fn bounded(draft: &mut Draft, record: &Record) -> Option<u64> {
     }
     let mut bounds = Vec::new();
     for curve in curves {
-        let mut pieces = Vec::new();
-        flatten(text, text.get(curve)?, true, MOST_LEVELS, &mut pieces)?;
-        let edges = edges(draft, &pieces);
+        let mut path = Path { pieces: Vec::new(), curves: 0 };
+        path.add(text, text.get(curve)?, true, MOST_LEVELS)?;
+        let edges = edges(draft, &path.pieces);
         let ring = draft.add(&format!("EDGE_LOOP('',{})", list_of(&edges)));
         bounds.push(draft.add(&format!("FACE_BOUND('',#{ring},.T.)")));
     }
@@ -81,33 +82,36 @@ struct Piece {
     forward: bool,
 }
 
-/// The pieces of a curve, those of composite ones one after the other.
-fn flatten(
-    text: &Text,
-    record: &Record,
-    forward: bool,
-    levels: usize,
-    pieces: &mut Vec<Piece>,
-) -> Option<()> {
-    let list = text.list(record);
-    let composite = text.keyword(record).starts_with(b"COMPOSITE_CURVE")
-        || text.keyword(record).ends_with(b"BOUNDARY_CURVE");
-    if !composite {
-        let ends = ends(text, record, levels)?;
-        pieces.push(Piece { curve: record.id, ends, forward });
-        return Some(());
+/// Pieces one after the other, and the curves that were looked at for them.
+struct Path {
+    pieces: Vec<Piece>,
+    curves: usize,
+}
+
+impl Path {
+    /// Add the pieces of a curve, those of composite ones one by one.
+    fn add(&mut self, text: &Text, record: &Record, forward: bool, levels: usize) -> Option<()> {
+        self.curves += 1;
+        let levels = levels.checked_sub(1).filter(|_| self.curves <= MOST_CURVES)?;
+        let list = text.list(record);
+        let composite = text.keyword(record).starts_with(b"COMPOSITE_CURVE")
+            || text.keyword(record).ends_with(b"BOUNDARY_CURVE");
+        if !composite {
+            let ends = ends(text, record, levels)?;
+            self.pieces.push(Piece { curve: record.id, ends, forward });
+            return Some(());
+        }
+        let mut segments = references(text, list.get(1)?);
+        if !forward {
+            segments.reverse();
+        }
+        for id in segments {
+            let segment = text.get(id)?;
+            let with = text.words(text.list(segment).get(1)?) != b".F.";
+            self.add(text, text.target(segment, 2)?, forward == with, levels)?;
+        }
+        Some(())
     }
-    let levels = levels.checked_sub(1)?;
-    let mut segments = references(text, list.get(1)?);
-    if !forward {
-        segments.reverse();
-    }
-    for id in segments {
-        let segment = text.get(id)?;
-        let with = text.words(text.list(segment).get(1)?) != b".F.";
-        flatten(text, text.target(segment, 2)?, forward == with, levels, pieces)?;
-    }
-    Some(())
 }
 
 /// Edges along the pieces, with a vertex where one ends and the next begins.

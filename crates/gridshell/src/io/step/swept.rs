@@ -3,10 +3,10 @@
 //! Vaults are swept from parabolas and hyperbolas, domes turned from ellipses and parabolas. The parser sweeps pieces
 //! of them only; how long a piece must be, the corners and control points of the faces tell.
 
-use super::text::{Draft, Record, Text, list_of, mentions, number, real, triple};
+use super::text::{Draft, Record, Text, list_of, mentions, number, real, references, triple};
 use crate::math::trig;
 use glam::DVec3;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
 /// What lies between a face and the points on its boundary.
@@ -36,13 +36,17 @@ const ON_AXIS: f64 = 1e-9;
 
 /// The text with such curves trimmed; None where there are none.
 pub(super) fn mended(text: &Text) -> Option<Vec<u8>> {
+    if !text.has(&["SURFACE_OF_REVOLUTION", "SURFACE_OF_LINEAR_EXTRUSION"]) {
+        return None;
+    }
     let mut draft = Draft::of(text);
+    let uses = Uses::of(text);
     for surface in &text.records {
         let turned = text.keyword(surface) == b"SURFACE_OF_REVOLUTION";
         if !turned && text.keyword(surface) != b"SURFACE_OF_LINEAR_EXTRUSION" {
             continue;
         }
-        let Some((curve, conic, ends)) = piece(text, surface, turned) else { continue };
+        let Some((curve, conic, ends)) = piece(text, &uses, surface, turned) else { continue };
         let trimmed = if turned {
             let mut end = |t: f64| draft.add(&triple("CARTESIAN_POINT", conic.point(t).to_array()));
             let [a, b] = ends.map(&mut end);
@@ -143,19 +147,21 @@ impl Conic {
 }
 
 /// The curve that a surface sweeps, and the ends of the piece of it that is needed; None where all of it is.
-fn piece(text: &Text, surface: &Record, turned: bool) -> Option<(u64, Conic, [f64; 2])> {
+fn piece(
+    text: &Text,
+    uses: &Uses,
+    surface: &Record,
+    turned: bool,
+) -> Option<(u64, Conic, [f64; 2])> {
     let curve = text.target(surface, 1)?;
     let conic = Conic::of(text, curve)?;
     if conic.kind == Kind::Ellipse && !turned {
         // Only offsets of it want it in another form.
-        let offset = |r: &&Record| {
-            text.keyword(r) == b"OFFSET_SURFACE"
-                && text.target(r, 1).is_some_and(|basis| basis.id == surface.id)
-        };
-        return text.records.iter().find(offset).map(|_| (curve.id, conic, [0.0, TAU]));
+        let offset = uses.offsets.contains_key(&surface.id);
+        return offset.then_some((curve.id, conic, [0.0, TAU]));
     }
     let sweep = text.target(surface, 2)?;
-    let rim = rim(text, surface.id);
+    let rim = uses.rim(text, surface.id);
     let way = |k: usize| Some(DVec3::from(text.xyz(text.target(sweep, k)?)?));
     let ends = if turned {
         let (at, axis) = (way(1)?, way(2).unwrap_or(DVec3::Z).try_normalize()?);
@@ -249,34 +255,48 @@ fn wide(parameters: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     (low <= high).then_some([low - more, high + more])
 }
 
-/// Points on the boundary of all faces on a surface, or on offsets of it.
-fn rim(text: &Text, surface: u64) -> Vec<DVec3> {
-    let mut on = vec![surface];
-    for record in &text.records {
-        let over = [b"OFFSET_SURFACE".as_slice(), b"RECTANGULAR_TRIMMED_SURFACE"];
-        if over.contains(&text.keyword(record))
-            && text.target(record, 1).is_some_and(|r| on.contains(&r.id))
-        {
-            on.push(record.id);
+/// What lies on surfaces: offsets of them, and faces.
+struct Uses {
+    offsets: BTreeMap<u64, Vec<u64>>,
+    faces: BTreeMap<u64, Vec<u64>>,
+}
+
+impl Uses {
+    fn of(text: &Text) -> Uses {
+        let mut uses = Uses { offsets: BTreeMap::new(), faces: BTreeMap::new() };
+        for record in &text.records {
+            let (on, k) = match text.keyword(record) {
+                b"OFFSET_SURFACE" => (&mut uses.offsets, 1),
+                b"ADVANCED_FACE" | b"FACE_SURFACE" => (&mut uses.faces, 2),
+                _ => continue,
+            };
+            if let Some(surface) = text.target(record, k) {
+                on.entry(surface.id).or_default().push(record.id);
+            }
         }
+        uses
     }
-    let mut next: Vec<u64> = Vec::new();
-    for record in &text.records {
-        let face = [b"ADVANCED_FACE".as_slice(), b"FACE_SURFACE"].contains(&text.keyword(record));
-        if face && text.target(record, 2).is_some_and(|s| on.contains(&s.id)) {
-            let list = text.list(record);
-            next.extend(mentions(text.words(&list[1])));
+
+    /// Points on the boundary of all faces on a surface, or on offsets of it.
+    fn rim(&self, text: &Text, surface: u64) -> Vec<DVec3> {
+        let mut seen = BTreeSet::new();
+        let (mut on, mut next) = (vec![surface], Vec::new());
+        while let Some(id) = on.pop().filter(|id| seen.insert(*id)) {
+            on.extend(self.offsets.get(&id).into_iter().flatten());
+            for face in self.faces.get(&id).into_iter().flatten().filter_map(|f| text.get(*f)) {
+                next.extend(text.list(face).get(1).into_iter().flat_map(|b| references(text, b)));
+            }
         }
-    }
-    let (mut points, mut seen) = (Vec::new(), BTreeSet::new());
-    while let Some(id) = next.pop() {
-        let Some(record) = text.get(id).filter(|_| seen.insert(id)) else { continue };
-        let keyword = text.keyword(record);
-        if keyword == b"CARTESIAN_POINT" {
-            points.extend(text.xyz(record).map(DVec3::from));
-        } else if BETWEEN.iter().any(|b| keyword == b.as_bytes()) {
-            next.extend(mentions(text.words(&record.list)));
+        let mut points = Vec::new();
+        while let Some(id) = next.pop() {
+            let Some(record) = text.get(id).filter(|_| seen.insert(id)) else { continue };
+            let keyword = text.keyword(record);
+            if keyword == b"CARTESIAN_POINT" {
+                points.extend(text.xyz(record).map(DVec3::from));
+            } else if BETWEEN.iter().any(|b| keyword == b.as_bytes()) {
+                next.extend(mentions(text.words(&record.list)));
+            }
         }
+        points
     }
-    points
 }

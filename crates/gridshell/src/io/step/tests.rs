@@ -357,9 +357,7 @@ fn surfaces_in_sets_are_faces_and_their_curves_edges() {
     let mut segments = Vec::new();
     for k in 0..4 {
         let (from, to) = (10 + k, 10 + (k + 1) % 4);
-        bounded += &format!(
-            "#81{k}=TRIMMED_CURVE('',#5{k},(#{from}),(PARAMETER_VALUE(0.),#{to}),.T.,.CARTESIAN.);"
-        );
+        bounded += &format!("#81{k}=TRIMMED_CURVE('',#5{k},(#{from}),(#{to}),.T.,.CARTESIAN.);");
         bounded += &format!("#82{k}=COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#81{k});");
         segments.push(format!("#82{k}"));
     }
