@@ -3,8 +3,11 @@
 use super::text::Text;
 use super::{axes, envelope, facets, numbers, sets, swept, trimmed, units};
 
+/// Gives the changed text, or None where nothing is to be changed.
+type Step = fn(&Text) -> Option<Vec<u8>>;
+
 /// In this order: what is added by one may be changed by the next.
-const STEPS: [fn(&Text) -> Option<Vec<u8>>; 5] =
+const STEPS: [Step; 5] =
     [numbers::mended, units::mended, axes::mended, facets::mended, sets::mended];
 
 /// The text, and what was done that the user should know.

@@ -146,7 +146,7 @@ impl<'t> Draft<'t> {
             out.extend(&bytes[at..range.start]);
             out.extend(words.bytes());
             // As many lines as before.
-            let lines = |b: &[u8]| b.iter().filter(|&&c| c == b'\n').count();
+            let lines = |b: &[u8]| b.split(|&c| c == b'\n').count();
             let (was, is) = (lines(&bytes[range.clone()]), lines(words.as_bytes()));
             out.extend(std::iter::repeat_n(b'\n', was.saturating_sub(is)));
             at = range.end;

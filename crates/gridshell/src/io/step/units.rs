@@ -106,7 +106,7 @@ fn scaled(draft: &mut Draft, record: &Record, scale: f64) {
         for piece in words.split_inclusive(|c: char| "(), \r\n\t".contains(c)) {
             let cut =
                 piece.len() - usize::from(piece.ends_with(|c: char| "(), \r\n\t".contains(c)));
-            match number(piece[..cut].as_bytes()) {
+            match number(&piece.as_bytes()[..cut]) {
                 Some(x) => out.push_str(&real(x * scale)),
                 None => out.push_str(&piece[..cut]),
             }
