@@ -362,7 +362,7 @@ fn surfaces_in_sets_are_faces_and_their_curves_edges() {
         segments.push(format!("#82{k}"));
     }
     bounded += &format!(
-        "#803=OUTER_BOUNDARY_CURVE('',({}),.F.);#804=COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#94);",
+        "#803=OUTER_BOUNDARY_CURVE('',({}),.F.);#804=COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.F.,#94);",
         segments.join(",")
     );
     bounded +=
