@@ -115,7 +115,7 @@ pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
         return read_mesh_with(path, opening).map(Model::Mesh);
     }
     let mut model = match extension(path).as_str() {
-        "step" | "stp" => unnamed(path, opening).and_then(|()| step::read(path)).map(Model::Brep),
+        "step" | "stp" => unnamed(path, opening).and_then(|()| step::read(path)),
         "iges" | "igs" => unnamed(path, opening).and_then(|()| iges::read(path)).map(Model::Brep),
         "3dm" => rhino(path, &opening.choice),
         _ => Err(unknown(path, SURFACE_FORMATS)),

@@ -32,6 +32,7 @@ mod order;
 mod orient;
 pub mod parts;
 mod plan;
+mod poles;
 mod polygon;
 pub mod project;
 mod refine;

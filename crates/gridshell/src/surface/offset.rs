@@ -33,6 +33,11 @@ impl OffsetSurface {
         &self.basis
     }
 
+    /// How far it is from its basis, along the normal du x dv.
+    pub fn distance(&self) -> f64 {
+        self.distance
+    }
+
     /// Whether it closes on itself in u and in v: its basis does, without a fold.
     pub fn closed(&self) -> [bool; 2] {
         self.closed

@@ -9,6 +9,7 @@
 use super::brep::{Brep, BrepEdge, Coedge};
 use super::curve::Curve;
 use super::model::Sampling;
+use super::poles;
 use super::shape::{Pole, Shape};
 use super::tessellate::sample_edges;
 use super::trim::{Edges, Node, Traced, Tracer};
@@ -22,6 +23,7 @@ use std::sync::Arc;
 /// [`Error::Surface`] naming the face that has neither loops nor an end.
 pub(super) fn complete(brep: &Brep, sampling: &Sampling) -> Result<Brep> {
     let mut brep = brep.clone();
+    poles::part(&mut brep);
     // Most faces without loops have been bounded by sewing.
     for i in 0..brep.faces.len() {
         if brep.faces[i].loops.is_empty() {
@@ -42,9 +44,18 @@ pub(super) fn complete(brep: &Brep, sampling: &Sampling) -> Result<Brep> {
         let traced = |reversed: bool, brep: &Brep| -> std::result::Result<Vec<Traced>, String> {
             brep.faces[i].loops.iter().map(|l| tracer.trace(l, reversed)).collect()
         };
-        let reversed = brep.faces[i].reversed;
-        let all = traced(reversed, &brep).map_err(|what| fault(i, &what))?;
-        if only_holes(&shape, &all, tracer.poles()) {
+        let mut reversed = brep.faces[i].reversed;
+        let mut all = traced(reversed, &brep).map_err(|what| fault(i, &what))?;
+        if let Some(loops) = without_seams(&brep, i, &all) {
+            brep.faces[i].loops = loops;
+            all = traced(reversed, &brep).map_err(|what| fault(i, &what))?;
+            if only_holes(&shape, &all, tracer.poles(), 1.0) {
+                reversed = !reversed;
+                brep.faces[i].reversed = reversed;
+                all = traced(reversed, &brep).map_err(|what| fault(i, &what))?;
+            }
+        }
+        if only_holes(&shape, &all, tracer.poles(), -1.0) {
             let from = clear_of(&shape, &all).map_err(|what| fault(i, &what))?;
             bound_from(&mut brep, i, from)?;
             continue;
@@ -59,6 +70,9 @@ pub(super) fn complete(brep: &Brep, sampling: &Sampling) -> Result<Brep> {
     Ok(brep)
 }
 
+/// A loop with a seam goes once round its closed patch, and no farther than this.
+const ONCE: f64 = 1.0 + 1e-6;
+
 /// Bound every face that has no loops and can be bounded; the others are refused later, by name.
 pub(super) fn bound_all(brep: &mut Brep) {
     for i in 0..brep.faces.len() {
@@ -72,15 +86,49 @@ fn fault(face: usize, what: &str) -> Error {
     Error::Surface(format!("face {}: {what}", face + 1))
 }
 
-/// Whether the loops are holes in a patch that has no sides but seams and poles, such as a sphere.
-fn only_holes(shape: &Shape, traced: &[Traced], poles: &[Pole]) -> bool {
+/// Whether the loops are holes in a patch that has no sides but seams and poles, such as a sphere; run clockwise
+/// (`way` -1) as holes should, or counter-clockwise (1).
+fn only_holes(shape: &Shape, traced: &[Traced], poles: &[Pole], way: f64) -> bool {
     let closed = shape.closed();
     let sides = |k: usize| poles.iter().filter(|p| p.fixed == k).count();
     let endless = (0..2).all(|k| closed[k] || sides(k) == 2);
     let largest = traced.iter().map(Traced::area).max_by(|a, b| a.abs().total_cmp(&b.abs()));
     endless
         && traced.iter().all(|t| t.winding == DVec2::ZERO)
-        && largest.is_some_and(|area| area < 0.0)
+        && largest.is_some_and(|area| area * way > 0.0)
+}
+
+/// The loops of face `i` without edges that it uses twice, where a loop with such edges goes farther round than once:
+/// several seams meet in one place there, and the file took the wrong one. None where all is well.
+fn without_seams(brep: &Brep, i: usize, traced: &[Traced]) -> Option<Vec<Vec<Coedge>>> {
+    let face = &brep.faces[i];
+    let period = face.shape.period();
+    let wide = |t: &Traced| {
+        (0..2).filter(|&k| period[k] > 0.0).any(|k| {
+            let all = || t.nodes.iter().map(|n| n.uv[k]);
+            let width = all().fold(f64::MIN, f64::max) - all().fold(f64::MAX, f64::min);
+            t.winding == DVec2::ZERO && width > period[k] * ONCE
+        })
+    };
+    let all = || face.loops.iter().flatten();
+    let once = |c: &&Coedge| all().filter(|d| d.edge == c.edge).count() == 1;
+    if !traced.iter().any(wide) || all().all(|c| once(&c)) {
+        return None;
+    }
+    let mut rest: Vec<Coedge> = all().filter(once).copied().collect();
+    let end =
+        |c: &Coedge, last: bool| brep.edges[c.edge as usize].ends[usize::from(last != c.reversed)];
+    let mut loops = Vec::new();
+    while let Some(first) = rest.pop() {
+        let mut coedges = vec![first];
+        while end(&coedges[coedges.len() - 1], true) != end(&first, false) {
+            let at = end(&coedges[coedges.len() - 1], true);
+            let next = rest.iter().position(|c| end(c, false) == at)?;
+            coedges.push(rest.remove(next));
+        }
+        loops.push(coedges);
+    }
+    Some(loops).filter(|l| !l.is_empty())
 }
 
 /// Parameters through which seams meet no loop.

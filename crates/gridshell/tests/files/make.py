@@ -34,7 +34,12 @@ from OCP.BRepGProp import BRepGProp
 from OCP.BRepLib import BRepLib
 from OCP.BRepMesh import BRepMesh_IncrementalMesh
 from OCP.BRepOffsetAPI import BRepOffsetAPI_ThruSections
-from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakeSphere
+from OCP.BRepPrimAPI import (
+    BRepPrimAPI_MakeBox,
+    BRepPrimAPI_MakeCylinder,
+    BRepPrimAPI_MakePrism,
+    BRepPrimAPI_MakeSphere,
+)
 from OCP.BRepTools import BRepTools
 from OCP.Geom import (
     Geom_BezierSurface,
@@ -43,8 +48,10 @@ from OCP.Geom import (
     Geom_ConicalSurface,
     Geom_CylindricalSurface,
     Geom_Ellipse,
+    Geom_Hyperbola,
     Geom_Line,
     Geom_OffsetSurface,
+    Geom_Parabola,
     Geom_Plane,
     Geom_SphericalSurface,
     Geom_SurfaceOfLinearExtrusion,
@@ -512,6 +519,48 @@ def ends(curve):
     return curve.FirstParameter(), curve.LastParameter()
 
 
+@case("vault drawn from a parabola, and one from a hyperbola", step("conic_vaults"))
+def conic_vaults():
+    p = Geom_TrimmedCurve(Geom_Parabola(ax2((0, 0, 3), (0, 1, 0), (0, 0, -1)), 0.75 * M), -3 * M, 3 * M)
+    h = Geom_TrimmedCurve(Geom_Hyperbola(ax2((9, 0, 5), (0, 1, 0), (0, 0, -1)), 2 * M, 3 * M), -1.1, 1.1)
+    return compound(*(drawn(c, (0.2, 5, 0.1)) for c in (p, h)))
+
+
+def drawn(curve, way):
+    return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeEdge(curve).Edge(), gp_Vec(*(M * x for x in way))).Shape()
+
+
+@case("whole ellipsoid: an ellipse turned about its axis", step("ellipsoid"), joined="solid")
+def ellipsoid():
+    e = Geom_Ellipse(ax2((0, 0, 0), (0, -1, 0), (0, 0, -1)), 4 * M, 3 * M)
+    s = Geom_SurfaceOfRevolution(Geom_TrimmedCurve(e, 0, math.pi), gp_Ax1(P(0, 0, 0), gp_Dir(0, 0, 1)))
+    return BRepBuilderAPI_MakeFace(s, 1e-6).Face()
+
+
+@case("tower: a hyperbola turned about an axis", step("tower"), iges("tower"))
+def tower():
+    h = Geom_TrimmedCurve(Geom_Hyperbola(ax2((0, 0, 6), (0, -1, 0), (1, 0, 0)), 3 * M, 5 * M), -1, 0.6)
+    return face(Geom_SurfaceOfRevolution(h, gp_Ax1(P(0, 0, 0), gp_Dir(0, 0, 1))), 0, TAU, *ends(h))
+
+
+@case("half a sphere whose axis lies in the plane of its rim", step("axis_in_rim"), iges("axis_in_rim"))
+def axis_in_rim():
+    # OpenCascade parts the rim at the poles, others do not.
+    s = face(Geom_SphericalSurface(axes((0, 0, 0), (1, 0, 0), (0, 1, 0)), 3 * M), 0, TAU, -math.pi / 2, math.pi / 2)
+    return max(faces(BRepAlgoAPI_Cut(s, moved(box(20), (-10, -10, -20))).Shape()), key=middle)
+
+
+def box(size):
+    return BRepPrimAPI_MakeBox(size * M, size * M, size * M).Shape()
+
+
+@case("torus with a hole where its seams meet", step("torus_hole"), iges("torus_hole"), iges("torus_hole_brep", brep=True))
+def torus_hole():
+    whole = BRepBuilderAPI_MakeFace(Geom_ToroidalSurface(axes(), 5 * M, 2 * M), 1e-6).Face()
+    drill = moved(BRepPrimAPI_MakeCylinder(0.8 * M, 9 * M).Shape(), (5, 0.2, 0))
+    return max(faces(BRepAlgoAPI_Cut(whole, drill).Shape()), key=area)
+
+
 # ---------------------------------------------------------------- offsets
 
 
@@ -530,6 +579,14 @@ def offset_swept():
     r = Geom_SurfaceOfRevolution(d, gp_Ax1(P(0, 0, 0), gp_Dir(0, 0, 1)))
     b = Geom_OffsetSurface(r, -0.3 * M)
     return compound(face(a, *ends(c), 0, 4 * M), moved(face(b, 0.0, 2.5, *ends(d)), (20, 0, 0)))
+
+
+@case("offset of a drawn ellipse, and of a sphere", step("offset_conics"), iges("offset_conics"))
+def offset_conics():
+    e = Geom_Ellipse(ax2((0, 0, 0), (0, 1, 0)), 3 * M, 2 * M)
+    a = Geom_OffsetSurface(Geom_SurfaceOfLinearExtrusion(e, gp_Dir(0, 1, 0)), 0.2 * M)
+    b = Geom_OffsetSurface(Geom_SphericalSurface(axes((9, 0, 0)), 2 * M), 0.3 * M)
+    return compound(face(a, 0.3, 2.8, 0, 4 * M), face(b, 0, TAU, 0.2, math.pi / 2))
 
 
 @case("offset of a closed free-form tube, all round", step("offset_tube"), joined="sewn")

@@ -13,6 +13,7 @@ mod curves;
 mod directory;
 mod global;
 mod loops;
+mod offset;
 mod records;
 mod roots;
 mod shells;

@@ -125,7 +125,7 @@ impl File<'_> {
     fn parts(&self) -> BTreeSet<u32> {
         let mut parts = BTreeSet::new();
         for entry in &self.directory.entries {
-            let holds = matches!(entry.kind, 186 | 514 | 510 | 141..=144 | 308);
+            let holds = matches!(entry.kind, 186 | 514 | 510 | 140..=144 | 308);
             let Some(p) = holds.then(|| self.directory.parameters(entry).ok()).flatten() else {
                 continue;
             };

@@ -4,8 +4,8 @@
 use super::curves::Arc;
 use super::directory::{Entry, Parameters};
 use super::{Fault, File, VISIT};
+use crate::surface::Curve;
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
-use crate::surface::{Curve, Shape};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry as Known;
@@ -99,7 +99,7 @@ impl File<'_> {
         if loops.is_empty() && sheet.is_part() {
             return Err(p.fault("a face without loops on a part of its surface is not read"));
         }
-        brep.faces.push(BrepFace { shape: Shape::Nurbs(sheet.surface), loops, reversed });
+        brep.faces.push(BrepFace { shape: sheet.shape, loops, reversed });
         Ok(())
     }
 

@@ -1,9 +1,11 @@
-//! Surface entities as exact splines: 108, 114, 118, 120, 122, 128, 190, 192, 194, 196, 198.
+//! Surface entities as exact splines: 108, 114, 118, 120, 122, 128, 190, 192, 194, 196, 198; `offset` has 140.
 
 use super::curves::{Arc, plain, to_bezier, within};
 use super::directory::{Entry, Parameters};
-use super::{Fault, File, VISIT, arc, bezier};
+use super::trimmed::placed;
+use super::{Fault, File, arc, bezier};
 use crate::math::trig;
+use crate::surface::Shape;
 use crate::surface::nurbs::{MAX_DEGREE, NurbsCurve, NurbsSurface};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -14,33 +16,37 @@ const MARGIN: f64 = 0.1;
 /// A surface and the part of its parameters that is meant.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
-    pub surface: NurbsSurface,
+    pub shape: Shape,
     pub range: [[f64; 2]; 2],
 }
 
 impl Sheet {
     fn whole(surface: NurbsSurface) -> Sheet {
         let range = surface.domain();
-        Sheet { surface, range }
+        Sheet { shape: Shape::Nurbs(surface), range }
     }
 
     /// Whether only a part of the surface's own domain is meant.
     pub fn is_part(&self) -> bool {
-        self.range != self.surface.domain()
+        self.range != self.shape.domain()
     }
 }
 
 /// Types of entities that are surfaces here.
 pub(super) fn is_surface(kind: u32) -> bool {
-    matches!(kind, 108 | 114 | 118 | 120 | 122 | 128 | 190 | 192 | 194 | 196 | 198)
+    matches!(kind, 108 | 114 | 118 | 120 | 122 | 128 | 140 | 190 | 192 | 194 | 196 | 198)
 }
 
 impl File<'_> {
     /// The surface of entity `number` in the space of the model. Surfaces without end are made to reach all of
     /// `reach`.
     pub fn surface(&self, number: u32, reach: &[DVec3]) -> Result<Sheet, Fault> {
+        self.surface_at(number, reach, 0)
+    }
+
+    pub fn surface_at(&self, number: u32, reach: &[DVec3], level: usize) -> Result<Sheet, Fault> {
         let entry = self.known(number)?;
-        self.spend(&entry, VISIT)?;
+        self.visit(&entry, level)?;
         let place = self.place(&entry)?;
         let back = place.inverse();
         if !back.is_finite() {
@@ -48,7 +54,7 @@ impl File<'_> {
         }
         let reach: Vec<DVec3> = reach.iter().map(|&p| back.transform_point3(p)).collect();
         let p = self.directory.parameters(&entry)?;
-        let mut sheet = match entry.kind {
+        let sheet = match entry.kind {
             128 => spline(&p)?,
             114 => cubic(&p)?,
             118 => self.ruled(&entry, &p)?,
@@ -56,13 +62,12 @@ impl File<'_> {
             122 => self.tabulated(&p)?,
             108 | 190 => self.plane(&entry, &p, &reach)?,
             192 | 194 | 196 | 198 => self.round(&entry, &p, &reach)?,
+            140 => self.offset(&p, &reach, level)?,
             _ => return Err(p.fault("this type of entity is not read as a surface")),
         };
-        for q in &mut sheet.surface.points {
-            *q = place.transform_point3(*q);
-        }
-        self.spend(&entry, sheet.surface.points.len())?;
-        Ok(sheet)
+        let shape = placed(sheet.shape, &place);
+        self.spend(&entry, shape.spline().map_or(0, |s| s.points.len()))?;
+        Ok(Sheet { shape, range: sheet.range })
     }
 
     /// 118: straight lines between two curves at the same share of their parameters.
@@ -252,7 +257,9 @@ impl File<'_> {
             }
         };
         let range = generator.domain();
+        // Round the axis first, so that their normals point outwards.
         revolve(&Arc { curve: generator, range }, centre, axis, 0.0, TAU)
+            .and_then(|s| transposed(&s))
             .map(Sheet::whole)
             .map_err(|e| p.fault(e))
     }
@@ -317,6 +324,17 @@ fn revolve(
         .map_err(text)
 }
 
+/// The same surface with u and v exchanged.
+fn transposed(s: &NurbsSurface) -> Result<NurbsSurface, String> {
+    let [m, n] = s.count;
+    let order = || (0..m * n).map(|k| k % m * n + k / m);
+    let points = order().map(|k| s.points[k]).collect();
+    let weights = order().filter_map(|k| s.weights.get(k).copied()).collect();
+    let knots = [s.knots[1].clone(), s.knots[0].clone()];
+    NurbsSurface::new([s.degree[1], s.degree[0]], knots, [n, m], points, weights)
+        .map_err(|e| e.to_string())
+}
+
 /// 128: a rational B-spline surface.
 fn spline(p: &Parameters) -> Result<Sheet, Fault> {
     let last = [p.count(0)?, p.count(1)?];
@@ -347,7 +365,7 @@ fn spline(p: &Parameters) -> Result<Sheet, Fault> {
     let asked = |k: usize| [p.number_or(end + k, f64::NAN), p.number_or(end + k + 1, f64::NAN)];
     let domain = surface.domain();
     let range = [within(domain[0], asked(0)), within(domain[1], asked(2))];
-    Ok(Sheet { surface, range })
+    Ok(Sheet { shape: Shape::Nurbs(surface), range })
 }
 
 /// 114: bicubic patches given by their coefficients.

@@ -3,11 +3,11 @@
 use super::curves::{Arc, in_line};
 use super::directory::{Entry, Parameters};
 use super::loops::{self, Side};
-use super::surfaces::Sheet;
 use super::{Fault, File};
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
+use crate::surface::nurbs::NurbsSurface;
 use crate::surface::project::Seeds;
-use crate::surface::{Curve, Shape, bound};
+use crate::surface::{Curve, OffsetSurface, Shape, bound};
 use glam::{DAffine3, DVec2, DVec3};
 use std::sync::Arc as Shared;
 
@@ -111,10 +111,10 @@ impl File<'_> {
     ) -> Result<(), Fault> {
         let place = self.place(entry)?;
         let reach: Vec<DVec3> = paths.iter().flat_map(reach).collect();
-        let Sheet { surface: sheet, range } = self.surface(surface, &reach)?;
-        let part = range != sheet.domain();
-        let kind = self.known(surface)?.kind;
-        let shape = Shared::new(Shape::Nurbs(sheet));
+        let sheet = self.surface(surface, &reach)?;
+        let (part, range) = (sheet.is_part(), sheet.range);
+        let kind = self.parametrized(surface)?;
+        let shape = Shared::new(sheet.shape);
         let mut rings: Vec<Vec<Coedge>> = Vec::new();
         let mut scrap = Brep::default();
         for path in paths {
@@ -145,6 +145,22 @@ impl File<'_> {
         }
         append(brep, scrap, &place);
         Ok(())
+    }
+}
+
+impl File<'_> {
+    /// The type of the surface whose parameters a surface has: offsets have those of their basis.
+    fn parametrized(&self, number: u32) -> Result<u32, Fault> {
+        let mut entry = self.known(number)?;
+        for level in 0.. {
+            self.visit(&entry, level)?;
+            let basis = self.directory.parameters(&entry)?;
+            match basis.pointer(4) {
+                Ok(Some(basis)) if entry.kind == 140 => entry = self.known(basis)?,
+                _ => break,
+            }
+        }
+        Ok(entry.kind)
     }
 }
 
@@ -205,13 +221,26 @@ pub(super) fn append(brep: &mut Brep, part: Brep, place: &DAffine3) {
     }
 }
 
-fn placed(mut shape: Shape, place: &DAffine3) -> Shape {
-    if let Shape::Nurbs(s) = &mut shape {
+/// A shape at its place.
+pub(super) fn placed(shape: Shape, place: &DAffine3) -> Shape {
+    let moved = |mut s: NurbsSurface| {
         for p in &mut s.points {
             *p = place.transform_point3(*p);
         }
+        s
+    };
+    match shape {
+        Shape::Nurbs(s) => Shape::Nurbs(moved(s)),
+        Shape::Offset(s) => {
+            // A mirrored surface has its normals on the other side.
+            let scale = place.matrix3.determinant().cbrt();
+            Shape::Offset(Box::new(OffsetSurface::new(
+                moved(s.basis().clone()),
+                s.distance() * scale,
+            )))
+        }
+        height @ Shape::Height(_) => height,
     }
-    shape
 }
 
 fn placed_curve(curve: Curve, place: &DAffine3) -> Curve {
@@ -229,10 +258,11 @@ fn placed_curve(curve: Curve, place: &DAffine3) -> Curve {
     }
 }
 
-/// The entities that a 141, 142, 143 or 144 is made of, as far as they are surfaces or faces.
+/// The entities that a 140, 141, 142, 143 or 144 is made of, as far as they are surfaces or faces.
 pub(super) fn parts(kind: u32, p: &Parameters) -> Vec<usize> {
     match kind {
         144 => vec![0],
+        140 => vec![4],
         142 | 143 => vec![1],
         141 => vec![2],
         _ => Vec::new(),

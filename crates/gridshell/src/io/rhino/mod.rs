@@ -6,7 +6,7 @@
 mod convert;
 
 use super::soup::Soup;
-use super::{Choice, file, weld};
+use super::{Choice, LengthUnit, file, weld};
 use crate::error::{Error, Result};
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::NurbsCurve;
@@ -78,8 +78,8 @@ pub(super) fn read(path: &Path, choice: &Choice) -> Result<Model> {
 struct Reading<'a> {
     ir: &'a CadIr,
     arenas: &'a Arenas,
-    /// Paths of layers by their identifier.
-    layers: BTreeMap<String, String>,
+    /// Layers by their identifier.
+    layers: BTreeMap<String, Layer>,
     /// Place in `listed` of each of the file's objects, by identifier and place among nested blocks.
     number: BTreeMap<(Vec<String>, String), usize>,
     listed: Vec<Object>,
@@ -143,10 +143,12 @@ impl<'a> Reading<'a> {
             return known;
         }
         let id = owner.layer.clone().unwrap_or_default();
-        let layer = self.layers.get(&id).cloned().unwrap_or(id);
+        let known = self.layers.get(&id);
+        let shown = owner.visible != Some(false) && known.is_none_or(|layer| layer.shown);
+        let layer = known.map_or(id.clone(), |layer| layer.path.clone());
         let name = owner.name.clone().unwrap_or_default();
         self.listed.push(Object { name, layer, kind: kind.to_owned(), faces: 0 });
-        self.shown.push(owner.visible != Some(false));
+        self.shown.push(shown);
         self.number.insert(key, self.listed.len() - 1);
         self.listed.len() - 1
     }
@@ -381,17 +383,23 @@ impl<'a> Reading<'a> {
         let source = Source { version, ..source(self.ir, self.listed) };
         let notes = std::mem::take(&mut self.brep.notes);
         if self.brep.faces.is_empty() && !self.mesh.faces.is_empty() {
-            let soup = Soup { notes, ..self.mesh };
+            // The decoder has brought it to metres.
+            let soup = Soup { notes, unit: Some(LengthUnit::Metre), ..self.mesh };
             let mesh = weld::weld(path, soup, None)?;
             return Ok(Model::Mesh(PolygonMesh { source, ..mesh }));
         }
         if self.brep.faces.is_empty() {
             let why = notes.iter().take(3).cloned().collect::<Vec<_>>().join("; ");
             let why = if why.is_empty() { why } else { format!(" ({why})") };
+            let message = if source.unit.is_none() {
+                "the file states no unit of length; choose one in Rhino and save it again".into()
+            } else {
+                format!("no surface, brep, extrusion or mesh that can be used{why}")
+            };
             return Err(Error::Parse {
                 path: path.to_path_buf(),
                 place: "objects".into(),
-                message: format!("no surface, brep, extrusion or mesh that can be used{why}"),
+                message,
             });
         }
         self.brep.name = file::stem(path);
@@ -424,27 +432,37 @@ fn loose<'a>(owner: Option<&'a Owner>, id: &str, used: &[&str]) -> Option<&'a Ow
     (!helps && used.binary_search(&id).is_err()).then_some(owner)
 }
 
-/// Paths of layers (`Roof::Panels`) by their identifier.
-fn layers(ir: &CadIr) -> BTreeMap<String, String> {
-    let mut known: BTreeMap<String, (String, Option<String>)> = BTreeMap::new();
+/// A layer.
+struct Layer {
+    /// Its name behind those of the layers that hold it: `Roof::Panels`.
+    path: String,
+    /// Neither it nor one that holds it is hidden.
+    shown: bool,
+}
+
+/// All layers by their identifier.
+fn layers(ir: &CadIr) -> BTreeMap<String, Layer> {
+    let mut known: BTreeMap<String, (String, Option<String>, bool)> = BTreeMap::new();
     let records = ir.native.namespace("rhino").and_then(|n| n.arenas().get("layers"));
     for record in records.into_iter().flatten() {
         let text = |field: &str| record.field(field)?.as_str().map(str::to_owned);
+        let shown = record.field("visible").and_then(|v| v.as_bool()) != Some(false);
         if let (Some(id), Some(name)) = (text("source_uuid"), text("name")) {
-            known.insert(id, (name, text("parent_uuid")));
+            known.insert(id, (name, text("parent_uuid"), shown));
         }
     }
-    let path = |id: &String| {
-        let (mut path, mut parent) = known[id].clone();
+    let layer = |id: &String| {
+        let (mut path, mut parent, mut shown) = known[id].clone();
         // No deeper than there are layers: some files have cycles.
         for _ in 0..known.len() {
-            let Some((name, above)) = parent.as_ref().and_then(|p| known.get(p)) else { break };
+            let Some((name, above, on)) = parent.as_ref().and_then(|p| known.get(p)) else { break };
             path = format!("{name}::{path}");
+            shown &= on;
             parent.clone_from(above);
         }
-        path
+        Layer { path, shown }
     };
-    known.keys().map(|id| (id.clone(), path(id))).collect()
+    known.keys().map(|id| (id.clone(), layer(id))).collect()
 }
 
 /// The version of Rhino by the file's first 32 bytes: a text and a number of eight digits, blanks before it.

@@ -2,16 +2,29 @@
 //!
 //! The parser is `step-io`; nothing of it leaves this folder. Analytic surfaces and curves come as exact
 //! rational B-splines, offsets as exact offsets of them. Assemblies are placed, by occurrences and by mapped
-//! items. What cannot be read is left out and noted.
+//! items. What the parser does not know is put into words that it does before it sees them (`mend` has the order).
+//! What cannot be read is left out and noted. Triangles are read where there is nothing exact.
 
+mod axes;
+mod envelope;
+mod facets;
+mod mend;
+mod meshes;
+mod numbers;
 mod reading;
+mod sets;
 mod shape;
+mod swept;
 #[cfg(test)]
 mod tests;
+mod text;
 mod trimmed;
+mod units;
 
+use super::soup::Soup;
+use super::weld;
 use crate::error::{Error, Result};
-use crate::surface::{Brep, Source, Unit};
+use crate::surface::{Brep, Model, PolygonMesh, Source, Unit};
 use reading::Reading;
 use std::fs::File;
 use std::io::Read;
@@ -23,37 +36,49 @@ const MOST_BYTES: u64 = 512 << 20;
 /// Notes of one kind beyond this many are only counted.
 const MOST_NOTES: usize = 20;
 
+/// What a file holds: exact faces, or where it has none triangles.
+enum Found {
+    Faces(Brep),
+    Triangles(Soup, Source),
+}
+
 /// Read the faces of a STEP file.
 ///
 /// # Errors
 /// [`Error::Io`] where the file cannot be opened, [`Error::Parse`] where it is no STEP file, too large, or
-/// holds no face that can be used.
-pub fn read(path: &Path) -> Result<Brep> {
+/// holds no face that can be used; [`Error::Surface`] where it holds triangles only, and they are no surface.
+pub fn read(path: &Path) -> Result<Model> {
     let io = |source| Error::Io { path: path.to_path_buf(), source };
     let file = File::open(path).map_err(io)?;
     if file.metadata().map_err(io)?.len() > MOST_BYTES {
         return Err(fault(path, "file", &format!("larger than {} MB", MOST_BYTES >> 20)));
     }
     let name = path.file_stem().and_then(|s| s.to_str()).unwrap_or("surface").to_owned();
-    let mut brep =
-        parse(file.take(MOST_BYTES)).map_err(|(place, what)| fault(path, &place, &what))?;
-    brep.name = name;
-    Ok(brep)
+    match parse(file.take(MOST_BYTES)).map_err(|(place, what)| fault(path, &place, &what))? {
+        Found::Faces(brep) => Ok(Model::Brep(Brep { name, ..brep })),
+        Found::Triangles(soup, source) => {
+            let mesh = weld::weld(path, soup, None)?;
+            Ok(Model::Mesh(PolygonMesh { source, ..mesh }))
+        }
+    }
 }
 
 fn fault(path: &Path, place: &str, what: &str) -> Error {
     Error::Parse { path: path.to_path_buf(), place: place.into(), message: what.into() }
 }
 
-/// Read the faces from the text of a STEP file; place and sentence on failure.
-fn parse(mut text: impl Read) -> std::result::Result<Brep, (String, String)> {
+/// Read what the text of a STEP file holds; place and sentence on failure.
+fn parse(mut text: impl Read) -> std::result::Result<Found, (String, String)> {
     let mut bytes = Vec::new();
     text.read_to_end(&mut bytes).map_err(|e| ("file".to_owned(), e.to_string()))?;
-    let bytes = trimmed::without(bytes);
-    let (model, report) = step_io::read(bytes.as_slice()).map_err(|e| told(&e, &bytes))?;
+    let (text, notes) = mend::mended(bytes);
+    let (model, report) =
+        step_io::read(text.bytes.as_slice()).map_err(|e| told(&e, &text.bytes))?;
     let scene = model.scene();
     let unit = scene.units().length.map(|u| u.to_si).filter(|m| m.is_finite() && *m > 0.0);
     let mut reading = Reading::new(&model, unit.unwrap_or(0.001));
+    reading.name_faces(&text, &report);
+    reading.brep.notes = notes;
     reading.brep.source = source(&model);
     let precision = scene.units().precision.filter(|p| p.is_finite() && *p > 0.0);
     reading.brep.tolerance = precision.unwrap_or(0.0) * reading.brep.unit_in_metres;
@@ -68,12 +93,23 @@ fn parse(mut text: impl Read) -> std::result::Result<Brep, (String, String)> {
     );
     note_some(&mut brep.notes, report.parse_warnings.iter().map(ToString::to_string));
     note_some(&mut brep.notes, scene.warnings().iter().map(ToString::to_string));
-    if brep.faces.is_empty() {
-        let why = brep.notes.iter().take(3).cloned().collect::<Vec<_>>().join("; ");
-        let why = if why.is_empty() { why } else { format!(" ({why})") };
-        return Err(("data section".into(), format!("no face that can be used{why}")));
+    if !brep.faces.is_empty() {
+        return Ok(Found::Faces(brep));
     }
-    Ok(brep)
+    let soup = meshes::soup(&scene, brep.unit_in_metres);
+    if !soup.faces.is_empty() {
+        let notes = brep.notes.into_iter().chain(soup.notes).collect();
+        return Ok(Found::Triangles(Soup { notes, ..soup }, brep.source));
+    }
+    let why = brep.notes.iter().take(3).cloned().collect::<Vec<_>>().join("; ");
+    let why = if why.is_empty() { why } else { format!(" ({why})") };
+    let what = if model.header().schema.to_string().starts_with("IFC") || text.has(&["IFCPROJECT"])
+    {
+        "it is an IFC file; export STEP, or a mesh".into()
+    } else {
+        format!("no face that can be used{why}; export surfaces, not curves or points alone")
+    };
+    Err(("data section".into(), what))
 }
 
 /// Where and why the text could not be parsed.
@@ -87,7 +123,15 @@ fn told(error: &step_io::Error, bytes: &[u8]) -> (String, String) {
             let last = bytes.trim_ascii_end().split(|b| *b == b'\n').count();
             (last as u32, "the file ends here, before its data do: it is cut off".into())
         }
-        E::UnexpectedToken { expected, span, .. } if expected.contains("ISO-10303-21") => {
+        _ if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\x1f\x8b") => {
+            return (
+                "file".into(),
+                "it is a compressed file; unpack it, and give what is in it".into(),
+            );
+        }
+        E::UnexpectedToken { span, .. }
+            if !bytes.trim_ascii_start().starts_with(b"ISO-10303-21") =>
+        {
             return (
                 format!("line {}", span.line),
                 "this is no STEP file: it does not begin with ISO-10303-21".into(),

@@ -1,13 +1,14 @@
 //! A STEP file's products, faces, edges and vertices brought together, each placed copy by itself.
 
 use super::shape;
+use super::text::Text;
 use crate::surface::Curve;
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::{FARTHEST, NurbsCurve, reach};
 use glam::{DMat4, DVec3};
 use std::collections::{HashMap, HashSet};
 use step_io::scene::{Bound, Edge, Face, MappedInstance, ProductDef, Scene, Transform, Vertex};
-use step_io::{EntityKey, Orientation, StepModel};
+use step_io::{EntityKey, Orientation, Report, StepModel};
 
 /// More faces, counted with every placed copy, are refused.
 const MOST_FACES: usize = 100_000;
@@ -19,6 +20,9 @@ const AT_VERTEX: f64 = 1e-7;
 const SAME_PLACE: f64 = 1e-6;
 /// Edges that follow each other in a loop may be this share of the loop's size apart.
 const LOOP_GAP: f64 = 1e-2;
+
+/// Longer loops are not put in order.
+const MOST_STRUNG: usize = 10_000;
 
 /// Where and what, of what ends the reading.
 pub(super) type Fatal = (String, String);
@@ -34,6 +38,10 @@ pub(super) struct Reading<'m> {
     vertices: HashMap<(usize, EntityKey), u32>,
     /// Placed copies so far; 0 is for faces outside any product.
     copies: usize,
+    /// Identifiers of faces in the file.
+    names: HashMap<EntityKey, u64>,
+    /// Faces that the file hides.
+    hidden: HashSet<EntityKey>,
 }
 
 impl<'m> Reading<'m> {
@@ -45,6 +53,43 @@ impl<'m> Reading<'m> {
             edges: HashMap::new(),
             vertices: HashMap::new(),
             copies: 0,
+            names: HashMap::new(),
+            hidden: HashSet::new(),
+        }
+    }
+
+    /// Learn the identifiers of faces: the parser keeps faces of a kind in the order of the file.
+    pub fn name_faces(&mut self, text: &Text, report: &Report) {
+        let kept = |keyword: &'static str| {
+            text.records.iter().filter(move |r| {
+                let gone = report.dropped.binary_search_by_key(&r.id, |(id, _)| *id).is_ok();
+                text.keyword(r) == keyword.as_bytes() && !gone
+            })
+        };
+        let scene = self.model.scene();
+        let faces: Vec<EntityKey> = scene.all_faces().map(|f| f.key()).collect();
+        let ids: Vec<u64> =
+            kept("ADVANCED_FACE").chain(kept("FACE_SURFACE")).map(|r| r.id).collect();
+        if ids.len() == faces.len() {
+            self.names = faces.into_iter().zip(ids).collect();
+        }
+    }
+
+    /// Learn which faces the file hides; all are read where it hides all of them.
+    fn find_hidden(&mut self, scene: &Scene) {
+        for solid in scene.all_solids().filter(|s| !s.is_visible()) {
+            self.hidden.extend(solid.faces().map(|f| f.key()));
+        }
+        for sheet in scene.all_surface_models().filter(|s| !s.is_visible()) {
+            self.hidden.extend(sheet.faces().map(|f| f.key()));
+        }
+        self.hidden.extend(scene.all_faces().filter(|f| !f.is_visible()).map(|f| f.key()));
+        let all = scene.all_faces().count();
+        if self.hidden.len() == all {
+            self.hidden.clear();
+        } else if !self.hidden.is_empty() {
+            let count = self.hidden.len();
+            self.note(format!("{count} hidden faces left out; show them in the program that wrote the file to read them"));
         }
     }
 
@@ -54,6 +99,7 @@ impl<'m> Reading<'m> {
 
     /// All faces: of products where they are placed, of mapped items, and those outside any of them.
     pub fn everything(&mut self, scene: &Scene) -> Result<(), Fatal> {
+        self.find_hidden(scene);
         let metres = DMat4::from_scale(DVec3::splat(self.brep.unit_in_metres));
         for root in scene.root_definitions() {
             self.definition(&root, metres, 0)?;
@@ -150,6 +196,9 @@ impl<'m> Reading<'m> {
     /// One face; left out with a note where it cannot be used.
     fn face(&mut self, face: &Face, place: DMat4, copy: usize) -> Result<(), Fatal> {
         self.seen.insert(face.key());
+        if self.hidden.contains(&face.key()) {
+            return Ok(());
+        }
         if self.brep.faces.len() >= MOST_FACES {
             return Err(("data section".into(), format!("more than {MOST_FACES} faces")));
         }
@@ -160,7 +209,8 @@ impl<'m> Reading<'m> {
                     "" => String::new(),
                     name => format!(" '{name}'"),
                 };
-                self.note(format!("{:?}{name} left out: {why}", face.key()));
+                let id = self.names.get(&face.key()).map_or("a face".into(), |id| format!("#{id}"));
+                self.note(format!("{id}{name} left out: {why}"));
             }
         }
         Ok(())
@@ -172,8 +222,12 @@ impl<'m> Reading<'m> {
             let coedges = self.bound(&bound, place, copy)?;
             // A loop of a single vertex, or of edges without length, only marks a pole.
             if !coedges.is_empty() {
-                self.check_loop(&coedges)?;
-                loops.push(coedges);
+                let open = self.check_loop(&coedges);
+                let strung = open.clone().err().and_then(|_| self.strung(&coedges));
+                match strung {
+                    Some(strung) => loops.push(strung),
+                    None => loops.push(open.map(|()| coedges)?),
+                }
             }
         }
         let points = self.control_points(&loops);
@@ -229,6 +283,24 @@ impl<'m> Reading<'m> {
             }
         }
         Ok(())
+    }
+
+    /// The same edges in the order and the ways in which they follow each other, where all of them do by their
+    /// vertices: some programs write them as they come.
+    fn strung(&self, coedges: &[Coedge]) -> Option<Vec<Coedge>> {
+        let ends = |edge: u32| self.brep.edges[edge as usize].ends;
+        let first = *coedges.first().filter(|_| coedges.len() <= MOST_STRUNG)?;
+        let (mut rest, mut strung) = (coedges[1..].to_vec(), vec![first]);
+        let start = ends(first.edge)[usize::from(first.reversed)];
+        let mut at = ends(first.edge)[usize::from(!first.reversed)];
+        while !rest.is_empty() {
+            let next = rest.iter().position(|c| ends(c.edge).contains(&at))?;
+            let edge = rest.remove(next).edge;
+            let reversed = ends(edge)[0] != at;
+            at = ends(edge)[usize::from(!reversed)];
+            strung.push(Coedge { edge, reversed });
+        }
+        (at == start).then_some(strung)
     }
 
     fn control_points(&self, loops: &[Vec<Coedge>]) -> Vec<DVec3> {

@@ -4,6 +4,14 @@ use super::*;
 use crate::surface::{Sampling, tessellate};
 use glam::DVec3;
 
+/// The exact faces in a text.
+fn parse(text: &[u8]) -> std::result::Result<Brep, (String, String)> {
+    match super::parse(text)? {
+        Found::Faces(brep) => Ok(brep),
+        Found::Triangles(..) => panic!("triangles only"),
+    }
+}
+
 /// A plate of 4 x 2 (in the unit) in the plane z = 1 with a round hole of radius 0.5; the hole's circle
 /// is run backwards and begins a quarter past the circle's own start.
 fn plate(unit: &str, plane: &str) -> String {
@@ -238,4 +246,165 @@ fn edges_without_length_mark_a_pole_only() {
     );
     let brep = parse(text.as_bytes()).unwrap();
     assert_eq!((brep.faces.len(), brep.faces[0].loops[0].len()), (1, 4));
+}
+
+/// The area of what a text holds.
+fn area(text: &str) -> f64 {
+    let brep = parse(text.as_bytes()).unwrap();
+    let sampling = Sampling { max_edge: 0.3, chord_error: 0.002, corner_angle: 0.5 };
+    tessellate(&brep, &sampling).unwrap().area
+}
+
+/// The plate with more entities.
+fn plate_with(more: &str) -> String {
+    plate("$", "PLANE('',#93)").replace("ENDSEC;END-ISO", &format!("{more}\nENDSEC;END-ISO"))
+}
+
+const PLATE: f64 = 8.0 - 0.25 * std::f64::consts::PI;
+
+#[test]
+fn parts_in_units_of_their_own_are_brought_to_the_first() {
+    let inches = "#500=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));
+#501=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#500);
+#502=(CONVERSION_BASED_UNIT('INCH',#501)LENGTH_UNIT()NAMED_UNIT(#503));
+#503=DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);
+#504=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#502,#2,#3))
+REPRESENTATION_CONTEXT('',''));";
+    let text = plate_with(inches).replace("(#104),#4)", "(#104),#504)");
+    let brep = parse(text.as_bytes()).unwrap();
+    assert!(brep.vertices.iter().any(|v| v.distance(DVec3::new(4.0, 2.0, 1.0) * 0.0254) < 1e-12));
+    // The hole's radius too.
+    let hole = brep.edges.iter().find(|e| e.ends[0] == e.ends[1]).unwrap();
+    let across = hole.curve.point(hole.range[0]).distance(DVec3::new(2.0, 1.0, 1.0) * 0.0254);
+    assert!((across - 0.5 * 0.0254).abs() < 1e-12);
+}
+
+#[test]
+fn edges_in_any_order_are_strung_together() {
+    for order in ["(#70,#72,#71,#73)", "(#70,#71,#111,#73)"] {
+        let turned = plate_with("#111=ORIENTED_EDGE('',*,*,#62,.F.);");
+        assert!((area(&turned.replace("(#70,#71,#72,#73)", order)) / PLATE - 1.0).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn hidden_faces_are_left_out_unless_all_are() {
+    let hide = |more: &str| {
+        let text = format!(
+            "#600=STYLED_ITEM('',(#601),#104);#601=PRESENTATION_STYLE_ASSIGNMENT((.NULL.));
+#602=INVISIBILITY((#600));{more}"
+        );
+        parse(plate_with(&text).as_bytes()).unwrap()
+    };
+    assert_eq!(hide("").faces.len(), 1);
+    let second = "#610=ADVANCED_FACE('seen',(#81),#101,.T.);#611=OPEN_SHELL('',(#610));
+#612=SHELL_BASED_SURFACE_MODEL('',(#611));";
+    let brep = hide(second);
+    assert_eq!((brep.faces.len(), brep.faces[0].loops.len()), (1, 1));
+    assert!(brep.notes.iter().any(|n| n.contains("1 hidden")), "{:?}", brep.notes);
+}
+
+#[test]
+fn what_is_left_out_is_named_as_in_the_file() {
+    let text = plate_with("").replace("(#70,#71,#72,#73)", "(#70,#71,#73)");
+    let (_, what) = parse(text.as_bytes()).unwrap_err();
+    assert!(what.contains("#102 'plate'"), "{what}");
+}
+
+#[test]
+fn roofs_of_corners_alone_have_edges_in_common() {
+    // A pyramid's four sides: each is given by its corners, with points of its own.
+    let corners = [[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [6.0, 6.0, 0.0], [0.0, 6.0, 0.0]];
+    for kind in ["FACETED_BREP", "FACE_BASED_SURFACE_MODEL"] {
+        let mut data = String::new();
+        for k in 0..4 {
+            let id = 700 + 10 * k;
+            for (n, p) in [corners[k], corners[(k + 1) % 4], [3.0, 3.0, 2.0]].iter().enumerate() {
+                data +=
+                    &format!("#{}=CARTESIAN_POINT('',({:?},{:?},{:?}));", id + n, p[0], p[1], p[2]);
+            }
+            let (a, b, c) = (id, id + 1, id + 2);
+            data += &format!(
+                "#{}=POLY_LOOP('',(#{a},#{b},#{c}));#{}=FACE_BOUND('',#{},.T.);",
+                id + 3,
+                id + 4,
+                id + 3
+            );
+            data += &format!("#{}=FACE('',(#{}));", id + 5, id + 4);
+        }
+        data += "#760=CONNECTED_FACE_SET('',(#705,#715,#725,#735));#761=";
+        data += kind;
+        data += if kind == "FACETED_BREP" { "('',#760);" } else { "('',(#760));" };
+        let text = plate_with(&data).replace("#102=ADVANCED_FACE", "#102=NO_FACE");
+        let text = if kind == "FACETED_BREP" {
+            text.replace("CONNECTED_FACE_SET", "CLOSED_SHELL")
+        } else {
+            text
+        };
+        let brep = parse(text.as_bytes()).unwrap();
+        assert_eq!((brep.faces.len(), brep.edges.len(), brep.vertices.len()), (4, 8, 5), "{kind}");
+        assert!((area(&text) / (12.0 * 13.0_f64.sqrt()) - 1.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn surfaces_in_sets_are_faces_and_their_curves_edges() {
+    let whole = "#800=BEZIER_SURFACE('',1,1,((#10,#13),(#11,#12)),.UNSPECIFIED.,.F.,.F.,.U.);
+#801=GEOMETRIC_SET('',(#800,#50));";
+    let text = plate_with(whole).replace("#102=ADVANCED_FACE", "#102=NO_FACE");
+    assert!((area(&text) / 8.0 - 1.0).abs() < 1e-9);
+    let mut bounded = String::from("#801=GEOMETRIC_SET('',(#802));");
+    let mut segments = Vec::new();
+    for k in 0..4 {
+        let (from, to) = (10 + k, 10 + (k + 1) % 4);
+        bounded += &format!("#81{k}=TRIMMED_CURVE('',#5{k},(#{from}),(#{to}),.T.,.CARTESIAN.);");
+        bounded += &format!("#82{k}=COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#81{k});");
+        segments.push(format!("#82{k}"));
+    }
+    bounded += &format!(
+        "#803=OUTER_BOUNDARY_CURVE('',({}),.F.);#804=COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.F.,#94);",
+        segments.join(",")
+    );
+    bounded +=
+        "#805=BOUNDARY_CURVE('',(#804),.F.);#802=CURVE_BOUNDED_SURFACE('',#101,(#803,#805),.F.);";
+    let text = plate_with(&bounded).replace("#102=ADVANCED_FACE", "#102=NO_FACE");
+    assert!((area(&text) / PLATE - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn triangles_are_read_where_there_is_nothing_exact() {
+    for list in [
+        "TRIANGULATED_SURFACE_SET('',#900,4,(),(),((1,2,3),(1,3,4)))",
+        "COMPLEX_TRIANGULATED_SURFACE_SET('',#900,4,(),(),((1,2,4,3)),())",
+    ] {
+        let text = plate_with(&format!(
+            "#900=COORDINATES_LIST('',4,((0.,0.,0.),(6.,0.,0.),(6.,4.,1.),(0.,4.,1.)));#901={list};"
+        ));
+        assert!(matches!(super::parse(text.as_bytes()).unwrap(), Found::Faces(_)));
+        let text = text.replace("#102=ADVANCED_FACE", "#102=NO_FACE");
+        let Found::Triangles(soup, source) = super::parse(text.as_bytes()).unwrap() else {
+            panic!("no triangles")
+        };
+        assert_eq!((soup.points.len(), soup.faces.len()), (4, 2));
+        assert_eq!(source.unit.unwrap().metres, 1.0);
+    }
+}
+
+#[test]
+fn vaults_and_domes_of_conics_are_as_large_as_their_faces() {
+    // A parabola over x from -3 to 3, 3 high, drawn along y for 4.
+    let vault = "#300=CARTESIAN_POINT('',(0.,0.,3.));#301=DIRECTION('',(0.,1.,0.));#302=DIRECTION('',(0.,0.,-1.));
+#303=AXIS2_PLACEMENT_3D('',#300,#301,#302);#304=PARABOLA('',#303,0.75);#305=VECTOR('',#301,1.);
+#306=SURFACE_OF_LINEAR_EXTRUSION('',#304,#305);#307=CARTESIAN_POINT('',(-3.,0.,0.));#308=CARTESIAN_POINT('',(3.,0.,0.));
+#309=CARTESIAN_POINT('',(-3.,4.,0.));#310=CARTESIAN_POINT('',(3.,4.,0.));#311=VERTEX_POINT('',#307);
+#312=VERTEX_POINT('',#308);#313=VERTEX_POINT('',#309);#314=VERTEX_POINT('',#310);#315=CARTESIAN_POINT('',(0.,4.,3.));
+#316=AXIS2_PLACEMENT_3D('',#315,#301,#302);#317=PARABOLA('',#316,0.75);#318=LINE('',#307,#305);#319=LINE('',#308,#305);
+#320=EDGE_CURVE('',#311,#312,#304,.F.);#321=EDGE_CURVE('',#312,#314,#319,.T.);#322=EDGE_CURVE('',#313,#314,#317,.F.);
+#323=EDGE_CURVE('',#311,#313,#318,.T.);#324=ORIENTED_EDGE('',*,*,#320,.T.);#325=ORIENTED_EDGE('',*,*,#321,.T.);
+#326=ORIENTED_EDGE('',*,*,#322,.F.);#327=ORIENTED_EDGE('',*,*,#323,.F.);#328=EDGE_LOOP('',(#324,#325,#326,#327));
+#329=FACE_BOUND('',#328,.T.);#330=ADVANCED_FACE('',(#329),#306,.T.);";
+    let text = plate_with(vault).replace("#102=ADVANCED_FACE", "#102=NO_FACE");
+    // Length of z = 3 - x^2 / 3 from -3 to 3.
+    let length = 3.0 * 5.0_f64.sqrt() + 1.5 * 2.0_f64.asinh();
+    assert!((area(&text) / (4.0 * length) - 1.0).abs() < 1e-5, "{} {}", area(&text), 4.0 * length);
 }
