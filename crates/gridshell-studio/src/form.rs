@@ -106,6 +106,7 @@ fn shape_fields(recipe: &Recipe) -> Vec<Field> {
         ("12", "12 turns"),
     ]);
     let part = choice(&[("one", "The only one"), ("all", "All")]);
+    let smooth = choice(&[("false", "As it is"), ("true", "Smoothed")]);
     let size =
         choice(&[("uniform", "The same everywhere"), ("curvature", "Shorter where it bends")]);
     let direction = choice(&[
@@ -181,6 +182,17 @@ fn shape_fields(recipe: &Recipe) -> Vec<Field> {
             "Shape",
             number(0.0, 180.0, 1.0),
             json!(recipe.corner_angle_deg),
+        ),
+        field(
+            [
+                "smooth_input",
+                "Coarse mesh",
+                "",
+                "A mesh with edges longer than half a member may give way to a smooth surface through its vertices.",
+            ],
+            "Shape",
+            smooth,
+            json!("false"),
         ),
         field(
             ["anchors", "Anchors", "m", "Points that become nodes: x, y, z, one a line."],
@@ -307,6 +319,7 @@ pub fn recipe(values: &Values, file: Option<&Recipe>) -> Result<Recipe> {
             _ if value.is_null() => continue,
             "direction" if value == "vector" => vector(text("vector").unwrap_or_default())?,
             "size" | "direction" => json!({ "kind": value }),
+            "smooth_input" => json!(value == "true"),
             "anchors" => points(value.as_str().unwrap_or_default())?,
             "nodes" | "candidates" | "seed" => whole(key, value)?,
             _ => value.clone(),
@@ -342,6 +355,7 @@ pub fn values(recipe: &Recipe) -> Values {
             },
             "size" | "direction" if plain["kind"] == "points" => Value::Null,
             "size" | "direction" => plain["kind"].clone(),
+            "smooth_input" => json!(plain.to_string()),
             "anchors" => {
                 let lines: Vec<String> =
                     plain.as_array().into_iter().flatten().map(triple).collect();

@@ -63,7 +63,14 @@ pub(super) fn weld(path: &Path, soup: Soup, unit: Option<LengthUnit>) -> Result<
     drop_unused(&mut work);
     note_many_sided(&mut work);
     let Work { points, faces, notes, .. } = work;
-    Ok(PolygonMesh { name: file::stem(path), points, faces, notes, source: Source::default() })
+    Ok(PolygonMesh {
+        name: file::stem(path),
+        points,
+        faces,
+        notes,
+        source: Source::default(),
+        smoothing: None,
+    })
 }
 
 impl Work {
