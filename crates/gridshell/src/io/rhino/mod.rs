@@ -6,7 +6,7 @@
 mod convert;
 
 use super::soup::Soup;
-use super::{Choice, file, weld};
+use super::{Choice, Opening, file, weld};
 use crate::error::{Error, Result};
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::NurbsCurve;
@@ -382,7 +382,7 @@ impl<'a> Reading<'a> {
         let notes = std::mem::take(&mut self.brep.notes);
         if self.brep.faces.is_empty() && !self.mesh.faces.is_empty() {
             let soup = Soup { notes, ..self.mesh };
-            let mesh = weld::weld(path, soup, None)?;
+            let mesh = weld::weld(path, soup, &Opening::default())?;
             return Ok(Model::Mesh(PolygonMesh { source, ..mesh }));
         }
         if self.brep.faces.is_empty() {

@@ -60,10 +60,7 @@ impl PolygonMesh {
     /// # Errors
     /// [`Error::Surface`](crate::Error::Surface) where that would take far too many triangles.
     pub fn smoothed(&self, wanted: &Smooth) -> Result<PolygonMesh> {
-        let net = Net::of(self);
-        let lines = Lines::of(&net, wanted.crease_angle, wanted.corner_angle);
-        let normals = normals::normals(&net, &lines);
-        let web = Web { net, lines, normals };
+        let web = Web::of(self, wanted);
         let mut pieces = Pieces::of(&web, wanted);
         pieces.refine(&web, wanted.chord_error, &self.name)?;
         let smoothing =
@@ -87,6 +84,13 @@ struct Web {
 }
 
 impl Web {
+    fn of(mesh: &PolygonMesh, wanted: &Smooth) -> Web {
+        let net = Net::of(mesh);
+        let lines = Lines::of(&net, wanted.crease_angle, wanted.corner_angle);
+        let normals = normals::normals(&net, &lines);
+        Web { net, lines, normals }
+    }
+
     /// The patch over triangle `t`.
     fn patch(&self, t: u32) -> Patch {
         let corners = self.net.corners(t);

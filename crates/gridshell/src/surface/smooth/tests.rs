@@ -1,6 +1,9 @@
 //! Meshes sampled from known surfaces come out near to these.
 
 use super::*;
+use crate::math::trig;
+use crate::surface::Sampling;
+use crate::surface::carrier::NONE;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -74,84 +77,179 @@ fn ball() -> PolygonMesh {
     mesh(points.into_iter().map(DVec3::normalize).collect(), finer)
 }
 
-/// Largest distance, as `off` has it, over the faces of the mesh each in many points, and of the smoothed mesh.
-fn errors(coarse: &PolygonMesh, off: impl Fn(DVec3) -> f64) -> (f64, f64) {
+/// Largest distance, as `off` has it, of the mesh's faces and of the smoothed mesh.
+fn errors(coarse: &PolygonMesh, off: impl Fn(DVec3) -> f64) -> [f64; 2] {
     let smooth = coarse.smoothed(&SMOOTH).expect("smooth");
-    for (k, p) in coarse.points.iter().enumerate() {
-        assert_eq!(smooth.points[k], *p, "the surface goes through the vertices");
-    }
-    let worst = |mesh: &PolygonMesh| {
+    assert_eq!(smooth.points[..coarse.points.len()], coarse.points, "it goes through the vertices");
+    let shares: Vec<[f64; 3]> = (0..=6)
+        .flat_map(|i| (0..=6 - i).map(move |j| [i, j, 6 - i - j].map(|w| f64::from(w) / 6.0)))
+        .collect();
+    [coarse, &smooth].map(|mesh| {
         let mut points = mesh.points.clone();
         let (triangles, _) = mesh.split(&mut points);
-        let weights = (0..=6)
-            .flat_map(|i| (0..=6 - i).map(move |j| [i, j, 6 - i - j].map(|w| f64::from(w) / 6.0)));
-        let weights: Vec<_> = weights.collect();
-        triangles
-            .iter()
-            .flat_map(|t| {
-                weights.iter().map(|w| (0..3).map(|k| points[t[k] as usize] * w[k]).sum())
-            })
-            .map(&off)
-            .fold(0.0, f64::max)
-    };
-    let at = smooth.points.iter().copied().max_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap();
-    println!("worst at {at:.3}");
-    (worst(coarse), worst(&smooth))
+        let on = |t: &[u32; 3], w: &[f64; 3]| (0..3).map(|k| points[t[k] as usize] * w[k]).sum();
+        let all = triangles.iter().flat_map(|t| shares.iter().map(move |w| (t, w)));
+        all.map(|(t, w)| off(on(t, w))).fold(0.0, f64::max)
+    })
+}
+
+/// The smoothed mesh is nearer to the surface that the mesh was taken from than its faces are, by this factor.
+fn assert_nearer(factor: f64, coarse: &PolygonMesh, off: impl Fn(DVec3) -> f64) {
+    let [faces, smooth] = errors(coarse, off);
+    assert!(smooth * factor < faces, "{smooth} is not {factor} times less than {faces}");
+}
+
+fn polar(radius: f64, angle: f64) -> [f64; 2] {
+    [radius * trig::cos(angle), radius * trig::sin(angle)]
+}
+
+/// A cap of the unit sphere: a pole, and rings of quads down to this angle.
+fn dome(rings: u32, sides: u32, down_to: f64) -> PolygonMesh {
+    let mut points = vec![DVec3::Z];
+    let mut faces = Vec::new();
+    for ring in 0..rings {
+        let [z, r] = polar(1.0, down_to * f64::from(ring + 1) / f64::from(rings));
+        for k in 0..sides {
+            let [x, y] = polar(r, TAU * f64::from(k) / f64::from(sides));
+            points.push(DVec3::new(x, y, z));
+            let (a, b) = (1 + ring * sides + k, 1 + ring * sides + (k + 1) % sides);
+            faces.push(if ring == 0 { vec![0, a, b] } else { vec![a - sides, a, b, b - sides] });
+        }
+    }
+    mesh(points, faces)
 }
 
 #[test]
-fn a_measure() {
-    let show = |name: &str, (a, b): (f64, f64)| println!("{name:20} {a:.5} {b:.6} {:.1}", a / b);
-    show("ball", errors(&ball(), |p| (p.length() - 1.0).abs()));
-    let cyl = |s: f64, t: f64| {
-        let a = PI * s;
-        DVec3::new(a.cos(), 2.0 * t, a.sin())
+fn coarse_spheres_cylinders_and_saddles_come_out_as_such() {
+    assert_nearer(500.0, &ball(), |p| (p.length() - 1.0).abs());
+    let half_pipe = |s: f64, t: f64| {
+        let [x, z] = polar(1.0, PI * s);
+        DVec3::new(x, 2.0 * t, z)
     };
     let off = |p: DVec3| (p.x.hypot(p.z) - 1.0).abs();
-    show("cylinder quads", errors(&quads(8, 5, cyl), off));
-    show("cylinder tri", errors(&triangles(8, 5, cyl), off));
+    assert_nearer(40.0, &quads(8, 5, half_pipe), off);
+    assert_nearer(40.0, &triangles(8, 5, half_pipe), off);
+    let height = |x: f64, y: f64| 0.25 * (x * x - y * y);
     let saddle = |s: f64, t: f64| {
         let (x, y) = (2.0 * s - 1.0, 2.0 * t - 1.0);
-        DVec3::new(x, y, 0.25 * (x * x - y * y))
+        DVec3::new(x, y, height(x, y))
     };
-    let off = |p: DVec3| {
-        let g = (1.0 + 0.25 * (p.x * p.x + p.y * p.y)).sqrt();
-        (p.z - 0.25 * (p.x * p.x - p.y * p.y)).abs() / g
+    let off = |p: DVec3| (p.z - height(p.x, p.y)).abs();
+    assert_nearer(12.0, &quads(8, 8, saddle), off);
+    assert_nearer(12.0, &triangles(8, 8, saddle), off);
+    let twisted = |s: f64, t: f64| DVec3::new(s, t, s * t);
+    assert_nearer(10.0, &quads(6, 6, twisted), |p| (p.z - p.x * p.y).abs());
+}
+
+#[test]
+fn the_rim_of_a_dome_of_sixteen_sides_is_a_circle() {
+    let dome = dome(4, 16, 1.2);
+    assert_nearer(50.0, &dome, |p| (p.length() - 1.0).abs());
+    let sampling = Sampling { max_edge: 9.0, chord_error: 1.0, corner_angle: SMOOTH.corner_angle };
+    let surface = dome.smoothed(&SMOOTH).unwrap().surface(&sampling).unwrap();
+    assert_eq!((surface.loops.len(), surface.euler_characteristic()), (1, 1));
+    let rim = &surface.loops[0];
+    assert!(rim.corners.is_empty());
+    let [z, r] = polar(1.0, 1.2);
+    for &v in &rim.vertices {
+        let p = surface.carrier.points[v as usize];
+        assert!((p.z - z).abs() < 1e-5 && (p.x.hypot(p.y) - r).abs() < 1e-5, "{p}");
+    }
+}
+
+#[test]
+fn uneven_meshes_do_not_overshoot() {
+    // Rows get narrower twentyfold and wide again along an arch.
+    let warp = |s: f64| s - 0.95 * trig::sin(TAU * s) / TAU;
+    let arch = |s: f64, t: f64| {
+        let [x, z] = polar(1.0, PI * warp(s));
+        DVec3::new(x, 2.0 * t * t, z)
     };
-    show("saddle quads", errors(&quads(8, 8, saddle), off));
-    show("saddle tri", errors(&triangles(8, 8, saddle), off));
-    let hypar = |s: f64, t: f64| {
-        let (x, y) = (2.0 * s - 1.0, 2.0 * t - 1.0);
-        DVec3::new(x, y, x * y)
-    };
-    let off = |p: DVec3| (p.z - p.x * p.y).abs() / (1.0 + p.x * p.x + p.y * p.y).sqrt();
-    show("hypar quads", errors(&quads(6, 6, hypar), off));
-    show("hypar tri", errors(&triangles(6, 6, hypar), off));
+    assert_nearer(20.0, &quads(12, 5, arch), |p| (p.x.hypot(p.z) - 1.0).abs());
+    assert_nearer(20.0, &triangles(12, 5, arch), |p| (p.x.hypot(p.z) - 1.0).abs());
+}
+
+#[test]
+fn planes_stay_plane_and_creases_sharp() {
+    // A gable roof with a ridge of sixty degrees: nothing bends.
+    let gable = quads(4, 3, |s, t| DVec3::new(s, t, 0.577 * (0.5 - (s - 0.5).abs())));
+    let smooth = gable.smoothed(&SMOOTH).unwrap();
+    assert!(smooth.smoothing.unwrap().departure < 1e-12);
+    assert_eq!(smooth.faces.len(), 2 * gable.faces.len());
+    // Below the crease angle the same roof is rounded, but only beside its ridge.
+    let round = quads(8, 3, |s, t| DVec3::new(s, t, 0.2 * (0.5 - (s - 0.5).abs())));
+    let smooth = round.smoothed(&SMOOTH).unwrap();
+    let off = |p: &DVec3| (p.z - 0.2 * (0.5 - (p.x - 0.5).abs())).abs();
+    assert!(smooth.smoothing.unwrap().departure > 1e-3);
+    assert!(smooth.points.iter().all(|p| off(p) < 1e-9 || (p.x - 0.5).abs() <= 0.25 + 1e-9));
+}
+
+#[test]
+fn patches_meet_with_one_tangent_plane() {
     let wave = |s: f64, t: f64| {
-        let (x, y) = (4.0 * s + 0.3 * (7.0 * t).sin() * s * (1.0 - s), 4.0 * t);
-        DVec3::new(x, y, 0.3 * x.sin() * (y + 0.5).cos())
+        DVec3::new(s, t + 0.1 * s * t, 0.1 * trig::sin(5.0 * s) * trig::cos(4.0 * t))
     };
-    let off = |p: DVec3| (p.z - 0.3 * p.x.sin() * (p.y + 0.5).cos()).abs();
-    show("wave quads", errors(&quads(12, 12, wave), off));
-    show("wave tri", errors(&triangles(12, 12, wave), off));
-    // A dome: a pole and rings, uneven.
-    let mut points = vec![DVec3::Z];
-    let mut faces = Vec::new();
-    for r in 1..=4u32 {
-        for k in 0..16u32 {
-            let (lat, lon) = (f64::from(r) / 4.0 * 1.2, TAU * f64::from(k) / 16.0);
-            points.push(DVec3::new(lat.sin() * lon.cos(), lat.sin() * lon.sin(), lat.cos()));
-            let (a, b) = (1 + (r - 1) * 16 + k, 1 + (r - 1) * 16 + (k + 1) % 16);
-            if r == 1 {
-                faces.push(vec![0, a, b]);
-            } else {
-                faces.push(vec![a - 16, a, b, b - 16]);
+    let web = Web::of(&triangles(5, 4, wave), &SMOOTH);
+    // Normal of the patch over a triangle, a hair beside the point at `s` of its side from corner k on.
+    let normal = |t: u32, k: usize, s: f64| {
+        let at = |s: f64, inside: f64| {
+            let mut bary = [inside; 3];
+            (bary[k], bary[(k + 1) % 3]) = ((1.0 - s) * (1.0 - inside), s * (1.0 - inside));
+            web.patch(t).point(bary)
+        };
+        let here = at(s, 0.0);
+        (at(s + 1e-6, 0.0) - here).cross(at(s, 1e-6) - here).normalize()
+    };
+    for (t, across) in web.net.neighbors.iter().enumerate() {
+        for k in (0..3).filter(|&k| across[k] != NONE) {
+            let u = across[k] as usize;
+            let back = web.net.neighbors[u].iter().position(|&n| n == t as u32).unwrap();
+            for s in [0.03, 0.2, 0.5, 0.9] {
+                let turn = trig::angle(normal(t as u32, k, s), normal(u as u32, back, 1.0 - s));
+                assert!(turn < 1e-4, "{turn}");
             }
         }
     }
-    let dome = mesh(points, faces);
-    show("dome", errors(&dome, |p| (p.length() - 1.0).abs()));
-    let smooth = dome.smoothed(&SMOOTH).unwrap();
-    let rim: Vec<DVec3> = smooth.points.iter().copied().filter(|p| (p.z - 1.2f64.cos()).abs() < 0.02).collect();
-    let _ = rim;
+}
+
+#[test]
+fn faces_finer_than_wanted_stay_as_they_are() {
+    let dome = dome(4, 16, 1.2);
+    let fine = dome.smoothed(&Smooth { coarse: 2.0, ..SMOOTH }).unwrap();
+    assert_eq!((fine.points, fine.smoothing.unwrap().departure), (dome.points.clone(), 0.0));
+    // The rings near the pole are narrow: only those below are divided, and what touches them.
+    let some = dome.smoothed(&Smooth { coarse: 0.31, ..SMOOTH }).unwrap();
+    let all = dome.smoothed(&SMOOTH).unwrap();
+    assert!(some.faces.len() < all.faces.len() && some.points.len() > dome.points.len());
+}
+
+#[test]
+fn honeycombs_are_smoothed_too() {
+    // Hexagons on a paraboloid, none of them plane.
+    let (mut points, mut faces): (Vec<DVec3>, Vec<Vec<u32>>) = (Vec::new(), Vec::new());
+    for row in 0..5 {
+        for column in 0..5 {
+            let centre = (
+                f64::from(column) + 0.5 * f64::from(row % 2),
+                0.75 * f64::from(row) * 2.0 / 3f64.sqrt(),
+            );
+            let face = (0..6).map(|k| {
+                let [x, y] = polar(1.0 / 3f64.sqrt(), PI * (f64::from(k) / 3.0 + 1.0 / 6.0));
+                let (x, y) = (x + centre.0 - 2.5, y + centre.1 - 1.7);
+                let p = DVec3::new(x, y, -0.05 * (x * x + y * y));
+                points.iter().position(|q| q.distance(p) < 1e-6).unwrap_or_else(|| {
+                    points.push(p);
+                    points.len() - 1
+                }) as u32
+            });
+            faces.push(face.collect());
+        }
+    }
+    let rounded = Smooth { corner_angle: 2.0, ..SMOOTH };
+    let smooth = mesh(points.clone(), faces.clone()).smoothed(&rounded).unwrap();
+    let off = |p: &DVec3| (p.z + 0.05 * (p.x * p.x + p.y * p.y)).abs();
+    let worst =
+        smooth.points.iter().filter(|p| p.truncate().length() < 1.2).map(off).fold(0.0, f64::max);
+    // Faces leave it by 0.05 / 3.
+    assert!(worst < 0.05 / 30.0, "{worst}");
 }
