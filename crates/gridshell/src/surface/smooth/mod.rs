@@ -22,6 +22,9 @@ use patch::{Arc, Patch, Side};
 use pieces::Pieces;
 use serde::Serialize;
 
+/// Vertices nearer to one another than this many chord errors are one place to the grid.
+const NEAR: f64 = 10.0;
+
 /// How a mesh is smoothed. Metres and radians.
 #[derive(Clone, Copy, Debug)]
 pub struct Smooth {
@@ -87,7 +90,7 @@ impl Web {
     fn of(mesh: &PolygonMesh, wanted: &Smooth) -> Web {
         let net = Net::of(mesh);
         let lines = Lines::of(&net, wanted.crease_angle, wanted.corner_angle);
-        let normals = normals::normals(&net, &lines);
+        let normals = normals::normals(&net, &lines, NEAR * wanted.chord_error);
         Web { net, lines, normals }
     }
 

@@ -13,7 +13,7 @@ use super::patch::square_to;
 use crate::math::least::least_squares;
 use crate::math::trig;
 use glam::DVec3;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Fewer vertices than this around one say too little of how the surface bends: the next ring is asked too.
 const ENOUGH: usize = 6;
@@ -22,20 +22,37 @@ const ROUNDS: usize = 3;
 /// How much is held back that the vertices around say little of, as a share of what they say in all.
 const REIN: f64 = 1e-5;
 
-/// Normals at the corners of all triangles.
-pub(super) fn normals(net: &Net, lines: &Lines) -> Vec<[DVec3; 3]> {
+/// Normals at the corners of all triangles. Vertices inside that are no more than `near` metres apart share theirs: else
+/// the needles between them would turn over.
+pub(super) fn normals(net: &Net, lines: &Lines, near: f64) -> Vec<[DVec3; 3]> {
     let (inside, border): (Vec<Sector>, _) =
         sectors(net, lines).into_iter().partition(|s| s.closed);
     let (within, ends): (Vec<Sector>, _) =
         border.into_iter().partition(|s| lines.tangent(s.vertex).is_some());
     let mut known = vec![[DVec3::ZERO; 3]; net.triangles.len()];
     for sectors in [inside, within, ends] {
-        let found: Vec<DVec3> = sectors.iter().map(|s| s.normal(net, lines, &known)).collect();
+        let mut found: Vec<DVec3> = sectors.iter().map(|s| s.normal(net, lines, &known)).collect();
+        share(net, &sectors, near, &mut found);
         for (sector, normal) in sectors.iter().zip(found) {
             sector.corners.iter().for_each(|&(t, k)| known[t as usize][k] = normal);
         }
     }
     known
+}
+
+/// Give each closed sector the normal of the first one whose vertex is no more than `near` metres from its own.
+fn share(net: &Net, sectors: &[Sector], near: f64, normals: &mut [DVec3]) {
+    let number: BTreeMap<u32, usize> =
+        sectors.iter().enumerate().filter(|(_, s)| s.closed).map(|(i, s)| (s.vertex, i)).collect();
+    let own = normals.to_vec();
+    for &i in number.values() {
+        let here = net.points[sectors[i].vertex as usize];
+        let around = sectors[i].corners.iter().flat_map(|&(t, _)| net.triangles[t as usize]);
+        let close = around.filter(|&v| net.points[v as usize].distance(here) <= near);
+        if let Some(&first) = close.min().and_then(|v| number.get(&v)) {
+            normals[i] = own[first];
+        }
+    }
 }
 
 /// The triangles around a vertex, or those between two lines that meet there.

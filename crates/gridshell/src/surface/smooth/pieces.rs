@@ -5,7 +5,7 @@
 
 use super::super::locate::nearest_in_triangle;
 use super::super::polygon::{MAX_TRIANGLES, divide};
-use super::{Smooth, Web};
+use super::{NEAR, Smooth, Web};
 use crate::error::{Error, Result};
 use glam::DVec3;
 use std::collections::HashMap;
@@ -64,7 +64,7 @@ impl Pieces {
         let mut known = Halves::new();
         loop {
             self.look(web, chord_error, &mut known);
-            while self.spread(web, &mut known) {}
+            while self.spread(web, NEAR * chord_error, &mut known) {}
             if !self.halve(web, &known) {
                 return Ok(());
             }
@@ -102,28 +102,39 @@ impl Pieces {
         }
     }
 
-    /// Have the longest edge halved wherever another one is; whether any was added.
-    fn spread(&self, web: &Web, known: &mut Halves) -> bool {
+    /// Have the longest edge halved wherever another one is; in a needle no wider than `near` both long ones, which would
+    /// else come to lie above one another. Whether any was added.
+    fn spread(&self, web: &Web, near: f64, known: &mut Halves) -> bool {
         let mut added = false;
         for (patch, corners) in &self.triangles {
             let key = |k: usize| sorted(corners[k].vertex, corners[(k + 1) % 3].vertex);
             let halved = |k: usize, known: &Halves| known.get(&key(k)).copied().flatten().is_some();
+            if !(0..3).any(|k| halved(k, known)) {
+                continue;
+            }
             let longest = self.longest(corners);
-            if (0..3).any(|k| halved(k, known)) && !halved(longest, known) {
-                let (a, b) = (corners[longest], corners[(longest + 1) % 3]);
-                known.insert(key(longest), Some(web.patch(*patch).point(mix(a.bary, b.bary, 0.5))));
-                added = true;
+            let is_needle = (0..3).any(|k| self.length(corners, k) <= near);
+            let wanted = |&k: &usize| k == longest || is_needle && self.length(corners, k) > near;
+            for k in (0..3).filter(wanted) {
+                if !halved(k, known) {
+                    let (a, b) = (corners[k], corners[(k + 1) % 3]);
+                    known.insert(key(k), Some(web.patch(*patch).point(mix(a.bary, b.bary, 0.5))));
+                    added = true;
+                }
             }
         }
         added
     }
 
+    /// Length of the edge from corner `k` on.
+    fn length(&self, corners: &[Corner; 3], k: usize) -> f64 {
+        let [p, q] = [k, (k + 1) % 3].map(|k| self.points[corners[k].vertex as usize]);
+        p.distance(q)
+    }
+
     fn longest(&self, corners: &[Corner; 3]) -> usize {
-        let length = |k: usize| {
-            let [p, q] = [k, (k + 1) % 3].map(|k| self.points[corners[k].vertex as usize]);
-            p.distance_squared(q)
-        };
-        (1..3).fold(0, |best, k| if length(k) > length(best) { k } else { best })
+        let length = [0, 1, 2].map(|k| self.length(corners, k));
+        (1..3).fold(0, |best, k| if length[k] > length[best] { k } else { best })
     }
 
     /// Halve the edges that are to be; whether there were any.
