@@ -53,7 +53,9 @@ pub(super) fn stitch(work: &mut Work, tolerance: f64) {
         if face[at] == b {
             taken.reverse();
         }
-        face.splice(at + 1..at + 1, taken);
+        let rest = face.split_off(at + 1);
+        face.extend(taken);
+        face.extend(rest);
     }
     work.note_count(found.len(), "joined", "vertices to the edges of other faces that they lie on");
 }

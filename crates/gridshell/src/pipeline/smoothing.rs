@@ -54,3 +54,51 @@ fn smooth(mesh: &PolygonMesh, length: f64, recipe: &Recipe) -> Result<PolygonMes
     ));
     Ok(smooth)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Job;
+    use crate::pipeline;
+    use crate::recipe::Effort;
+    use crate::surface::builtin;
+    use glam::DVec3;
+
+    /// A shallow bowl of sixteen quads, four metres wide.
+    fn bowl() -> Model {
+        let at = |k: u32| f64::from(k) - 2.0;
+        let vertices = (0..5).flat_map(|i| (0..5).map(move |j| (at(i), at(j))));
+        let points = vertices.map(|(x, y)| DVec3::new(x, y, 0.1 * (x * x + y * y))).collect();
+        let cells = (0..4).flat_map(|i| (0..4).map(move |j| 5 * i + j));
+        let faces = cells.map(|a| vec![a, a + 5, a + 6, a + 1]).collect();
+        Model::Mesh(PolygonMesh { points, faces, ..PolygonMesh::default() })
+    }
+
+    fn recipe(edge_length: f64) -> Recipe {
+        let effort = Effort::Draft;
+        Recipe { edge_length: Some(edge_length), smooth_input: true, effort, ..Recipe::default() }
+    }
+
+    #[test]
+    fn a_grid_lies_on_the_smooth_surface_which_the_run_tells() {
+        let run = pipeline::generate(&bowl(), &recipe(0.4), &Job::default()).unwrap();
+        let smoothing = run.surface.smoothing.expect("it was smoothed");
+        assert!((smoothing.longest_edge - 1.0446).abs() < 1e-3, "{smoothing:?}");
+        assert!((0.02..0.06).contains(&smoothing.departure), "{smoothing:?}");
+        let off = run.grid.xyz.iter().map(|p| (p.z - 0.1 * (p.x * p.x + p.y * p.y)).abs());
+        assert!(off.fold(0.0, f64::max) < 0.006, "the faces leave it by 0.05");
+        assert_eq!(run.quality.euler_characteristic, 1);
+    }
+
+    #[test]
+    fn what_is_fine_or_of_patches_stays_and_is_told() {
+        let bowl = bowl();
+        let fine = smoothed(&bowl, &recipe(2.2)).unwrap();
+        assert_eq!(fine.face_count(), 16);
+        assert!(fine.notes()[0].contains("no edge of the mesh is longer than 1.100 m"));
+        let patches = builtin::model("hexagon").unwrap();
+        let same = smoothed(&patches, &recipe(1.0)).unwrap();
+        assert!(same.notes().iter().any(|n| n.contains("of patches, not a mesh")));
+        assert!(matches!(smoothed(&bowl, &Recipe::default()).unwrap(), Cow::Borrowed(_)));
+    }
+}

@@ -119,7 +119,7 @@ impl Web {
 
     /// Normals at the vertex `v` on both sides of the edge of triangle `t` from its corner `k` on: the same from either.
     fn beside(&self, t: u32, k: usize, v: u32) -> Vec<glam::DVec3> {
-        let mut sides = vec![t, self.net.neighbors[t as usize][k]];
+        let mut sides = [t, self.net.neighbors[t as usize][k]];
         sides.sort_unstable();
         let corner = |&t: &u32| {
             let corners = self.net.triangles.get(t as usize)?;
