@@ -106,7 +106,6 @@ fn shape_fields(recipe: &Recipe) -> Vec<Field> {
         ("12", "12 turns"),
     ]);
     let part = choice(&[("one", "The only one"), ("all", "All")]);
-    let smooth = choice(&[("false", "As it is"), ("true", "Smoothed")]);
     let size =
         choice(&[("uniform", "The same everywhere"), ("curvature", "Shorter where it bends")]);
     let direction = choice(&[
@@ -183,17 +182,7 @@ fn shape_fields(recipe: &Recipe) -> Vec<Field> {
             number(0.0, 180.0, 1.0),
             json!(recipe.corner_angle_deg),
         ),
-        field(
-            [
-                "smooth_input",
-                "Coarse mesh",
-                "",
-                "A mesh with edges longer than half a member may give way to a smooth surface through its vertices.",
-            ],
-            "Shape",
-            smooth,
-            json!("false"),
-        ),
+        smooth_field(),
         field(
             ["anchors", "Anchors", "m", "Points that become nodes: x, y, z, one a line."],
             "Shape",
@@ -201,6 +190,20 @@ fn shape_fields(recipe: &Recipe) -> Vec<Field> {
             Value::Null,
         ),
     ]
+}
+
+fn smooth_field() -> Field {
+    field(
+        [
+            "smooth_input",
+            "Coarse mesh",
+            "",
+            "A mesh with edges longer than half a member may give way to a smooth surface through its vertices.",
+        ],
+        "Shape",
+        choice(&[("false", "As it is"), ("true", "Smoothed")]),
+        json!("false"),
+    )
 }
 
 fn method_fields(recipe: &Recipe) -> Vec<Field> {
