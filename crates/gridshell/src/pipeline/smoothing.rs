@@ -25,6 +25,8 @@ pub fn smoothed<'a>(model: &'a Model, recipe: &Recipe) -> Result<Cow<'a, Model>>
             brep.notes.push("nothing was smoothed: the surface is of patches, not a mesh".into());
             return Ok(Cow::Owned(Model::Brep(brep)));
         }
+        // It comes out of here.
+        Model::Mesh(mesh) if mesh.smoothing.is_some() => return Ok(Cow::Borrowed(model)),
         Model::Mesh(mesh) => mesh,
     };
     let length = parts::edge_length(model, recipe)?;
@@ -96,6 +98,8 @@ mod tests {
         let fine = smoothed(&bowl, &recipe(2.2)).unwrap();
         assert_eq!(fine.face_count(), 16);
         assert!(fine.notes()[0].contains("no edge of the mesh is longer than 1.100 m"));
+        let smooth = smoothed(&bowl, &recipe(0.4)).unwrap();
+        assert!(matches!(smoothed(&smooth, &recipe(0.4)).unwrap(), Cow::Borrowed(_)));
         let patches = builtin::model("hexagon").unwrap();
         let same = smoothed(&patches, &recipe(1.0)).unwrap();
         assert!(same.notes().iter().any(|n| n.contains("of patches, not a mesh")));
