@@ -120,6 +120,9 @@ pub struct Generate {
     /// Edges where the surface turns by more than this become lines of members, degrees; 180 finds none.
     #[arg(long, value_name = "DEG", value_parser = positive, allow_negative_numbers = true)]
     pub feature_angle: Option<f64>,
+    /// Lay the grid on a smooth surface through the vertices of a mesh, where its edges are longer than half a member.
+    #[arg(long)]
+    pub smooth_input: bool,
     /// Polylines that become lines of members: an OBJ file with `v` and `l`, or a text with one point `x y z` a
     /// line and a blank line between polylines.
     #[arg(long, value_name = "FILE")]

@@ -34,6 +34,7 @@ pub fn from_args(args: &Generate, again: Option<&Recipe>) -> Result<Recipe, Fail
     if let Some(angle) = args.feature_angle {
         recipe.feature_angle_deg = angle;
     }
+    recipe.smooth_input |= args.smooth_input;
     if let Some(path) = &args.guides {
         let guides = io::read_guides(path)?;
         recipe.guides =

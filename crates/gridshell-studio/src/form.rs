@@ -182,6 +182,7 @@ fn shape_fields(recipe: &Recipe) -> Vec<Field> {
             number(0.0, 180.0, 1.0),
             json!(recipe.corner_angle_deg),
         ),
+        smooth_field(),
         field(
             ["anchors", "Anchors", "m", "Points that become nodes: x, y, z, one a line."],
             "Shape",
@@ -189,6 +190,20 @@ fn shape_fields(recipe: &Recipe) -> Vec<Field> {
             Value::Null,
         ),
     ]
+}
+
+fn smooth_field() -> Field {
+    field(
+        [
+            "smooth_input",
+            "Coarse mesh",
+            "",
+            "A mesh with edges longer than half a member may give way to a smooth surface through its vertices.",
+        ],
+        "Shape",
+        choice(&[("false", "As it is"), ("true", "Smoothed")]),
+        json!("false"),
+    )
 }
 
 fn method_fields(recipe: &Recipe) -> Vec<Field> {
@@ -307,6 +322,7 @@ pub fn recipe(values: &Values, file: Option<&Recipe>) -> Result<Recipe> {
             _ if value.is_null() => continue,
             "direction" if value == "vector" => vector(text("vector").unwrap_or_default())?,
             "size" | "direction" => json!({ "kind": value }),
+            "smooth_input" => json!(value == "true"),
             "anchors" => points(value.as_str().unwrap_or_default())?,
             "nodes" | "candidates" | "seed" => whole(key, value)?,
             _ => value.clone(),
@@ -342,6 +358,7 @@ pub fn values(recipe: &Recipe) -> Values {
             },
             "size" | "direction" if plain["kind"] == "points" => Value::Null,
             "size" | "direction" => plain["kind"].clone(),
+            "smooth_input" => json!(plain.to_string()),
             "anchors" => {
                 let lines: Vec<String> =
                     plain.as_array().into_iter().flatten().map(triple).collect();

@@ -33,6 +33,9 @@ pub struct Recipe {
     pub corner_angle_deg: f64,
     /// Edges where the surface turns by more than this are creases that members follow, degrees; 180 finds none.
     pub feature_angle_deg: f64,
+    /// Whether a mesh that is coarse for the grid gives way to a smooth surface through its vertices. Boundary and
+    /// creases are smooth between their corners.
+    pub smooth_input: bool,
     /// Polylines on the surface that members follow: their points, metres.
     pub guides: Vec<Vec<[f64; 3]>>,
     /// Points on the surface that are nodes, metres.
@@ -437,6 +440,7 @@ impl Default for Recipe {
             candidates: None,
             corner_angle_deg: 30.0,
             feature_angle_deg: 40.0,
+            smooth_input: false,
             guides: Vec::new(),
             anchors: Vec::new(),
             border: 0.25,

@@ -108,6 +108,10 @@ pub fn restore(document: Document, model: Option<&Model>) -> Result<Opened> {
         let grid = with_features(grid, &document)?;
         return Ok(Opened { document, grid, surface, summary: None, edge_length, recipe, notes });
     };
+    let model = match &document.recipe {
+        Some(recipe) => &*pipeline::smoothed(model, recipe)?,
+        None => model,
+    };
     let surface = match &document.recipe {
         Some(recipe) => pipeline::surface(model, recipe)?.0,
         None => sample(model, edge_length, &recipe)?,

@@ -7,7 +7,7 @@ use crate::grid::Grid;
 use crate::recipe::{self, Recipe};
 use crate::schedule::{Figures, Schedule};
 use crate::stages::measure::{Border, IrregularNode, Quality};
-use crate::surface::{Model, Sewing, Surface};
+use crate::surface::{Model, Sewing, Smoothing, Surface};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -245,6 +245,8 @@ pub struct SurfaceSummary {
     pub edge_gap: f64,
     /// What sewing found; null for built-in surfaces and meshes.
     pub sewing: Option<Sewing>,
+    /// What smoothing did; null where the surface was taken as it is.
+    pub smoothing: Option<Smoothing>,
     /// What was skipped or repaired while reading.
     pub notes: Vec<String>,
 }
@@ -274,9 +276,9 @@ impl SurfaceSummary {
             Model::Brep(brep) => (brep.unit_in_metres, largest_gap(brep), &brep.notes),
             Model::Mesh(mesh) => (1.0, 0.0, &mesh.notes),
         };
-        let sewing = match model {
-            Model::Brep(brep) => brep.sewing,
-            Model::Mesh(_) => None,
+        let (sewing, smoothing) = match model {
+            Model::Brep(brep) => (brep.sewing, None),
+            Model::Mesh(mesh) => (None, mesh.smoothing),
         };
         let boundaries: Vec<_> = surface
             .loops
@@ -295,6 +297,7 @@ impl SurfaceSummary {
             gap,
             edge_gap: edge_gap(surface),
             sewing,
+            smoothing,
             notes: notes.clone(),
         }
     }

@@ -31,7 +31,14 @@ pub(super) enum Json {
 pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Json> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     serde_json::from_slice(bytes).map_err(|e| {
-        scan::error(path, format!("line {}", e.line()), format!("this is no JSON: {e}"))
+        // Python writes what no other program reads.
+        let odd = ["NaN", "Infinity"]
+            .into_iter()
+            .find(|n| bytes.windows(n.len()).any(|w| w == n.as_bytes()));
+        let hint = odd.map_or_else(String::new, |n| {
+            format!("; `{n}` in it is no number of JSON: mend what it stands for")
+        });
+        scan::error(path, format!("line {}", e.line()), format!("this is no JSON: {e}{hint}"))
     })
 }
 

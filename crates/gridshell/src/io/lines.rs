@@ -6,7 +6,7 @@
 //!   a `#` for a comment.
 
 use super::scan::{self, Line};
-use super::{extension, file};
+use super::{extension, file, text};
 use crate::error::Result;
 use glam::DVec3;
 use std::path::Path;
@@ -20,7 +20,7 @@ const MOST_POINTS: usize = 100_000;
 /// [`Error::Parse`](crate::Error::Parse) with the line; a file without a polyline is one, too.
 pub fn read_guides(path: &Path) -> Result<Vec<Vec<DVec3>>> {
     let bytes = file::read(path)?;
-    let text = String::from_utf8_lossy(&bytes);
+    let text = text::decode(&bytes);
     let guides = if extension(path) == "obj" { obj(path, &text)?.1 } else { plain(path, &text)? };
     if guides.is_empty() {
         return Err(scan::error(path, "whole file", "there is no polyline in it"));
@@ -34,7 +34,7 @@ pub fn read_guides(path: &Path) -> Result<Vec<Vec<DVec3>>> {
 /// As [`read_guides`].
 pub fn read_anchors(path: &Path) -> Result<Vec<DVec3>> {
     let bytes = file::read(path)?;
-    let text = String::from_utf8_lossy(&bytes);
+    let text = text::decode(&bytes);
     let anchors: Vec<DVec3> = if extension(path) == "obj" {
         obj(path, &text)?.0
     } else {

@@ -2,6 +2,7 @@
 
 use super::soup::Digits;
 use super::weld::{Work, bounds};
+use crate::error::{Error, Result};
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -11,6 +12,8 @@ const SAME: f64 = 1e-9;
 const ROUNDINGS: f64 = 2.0;
 /// but never beyond this share of the model's box.
 const MOST: f64 = 1e-5;
+/// No more than this share of the box may be wanted.
+const MOST_WANTED: f64 = 0.01;
 
 /// Replace every vertex by the first one at exactly its place.
 pub(super) fn identical(work: &mut Work) {
@@ -22,8 +25,11 @@ pub(super) fn identical(work: &mut Work) {
     replace(work, &keep);
 }
 
-/// Replace every vertex that a face uses by the first such one at its place, within rounding.
-pub(super) fn close(work: &mut Work, digits: Digits) {
+/// Within what distance vertices are the same, metres: `wanted`, or what roundings make of one place.
+///
+/// # Errors
+/// [`Error::Option`] where what is wanted would make the mesh collapse.
+pub(super) fn tolerance(work: &Work, digits: Digits, wanted: Option<f64>) -> Result<f64> {
     let used = work.used();
     let (low, high) = bounds(work.points.iter().zip(&used).filter(|p| *p.1).map(|p| *p.0));
     let size = (high - low).length();
@@ -33,7 +39,20 @@ pub(super) fn close(work: &mut Work, digits: Digits) {
             low.abs().max(high.abs()).max_element() * f64::from(f32::EPSILON) * ROUNDINGS
         }
     };
-    let tolerance = rounding.min(MOST * size).max(SAME * size);
+    let usual = rounding.min(MOST * size).max(SAME * size);
+    match wanted {
+        Some(t) if !(0.0..=MOST_WANTED * size).contains(&t) => Err(Error::Option(format!(
+            "the sewing tolerance {t} m does not suit a mesh {size:.3} m across: it must be from 0 to {:.3} m",
+            MOST_WANTED * size
+        ))),
+        wanted => Ok(wanted.unwrap_or(usual)),
+    }
+}
+
+/// Replace every vertex that a face uses by the first such one no further than `tolerance` metres.
+pub(super) fn close(work: &mut Work, tolerance: f64) {
+    let used = work.used();
+    let (low, _) = bounds(work.points.iter().zip(&used).filter(|p| *p.1).map(|p| *p.0));
     // Cells are wider than the tolerance, so that most points touch one cell only, but hold few that differ.
     let cell = 16.0 * tolerance.max(f64::MIN_POSITIVE);
     let key = |p: DVec3| ((p - low) / cell).floor().to_array().map(|c| c as i64);

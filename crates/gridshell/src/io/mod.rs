@@ -29,7 +29,9 @@ mod saf;
 mod scan;
 mod soup;
 pub mod step;
+mod stitch;
 mod stl;
+mod text;
 mod turn;
 mod unit;
 mod values;
@@ -190,7 +192,7 @@ pub fn read_mesh_with(path: &Path, opening: &Opening) -> Result<PolygonMesh> {
     if matches!(extension(path).as_str(), "gltf" | "glb") {
         refuse_unit(path, opening)?;
     }
-    let mut mesh = weld::weld(path, read(path)?, opening.unit)?;
+    let mut mesh = weld::weld(path, read(path)?, opening)?;
     mesh.source = Source::of_format(&extension(path).to_uppercase());
     Ok(mesh)
 }

@@ -3,7 +3,7 @@
 
 use super::grid_file::GridFile;
 use super::soup::Soup;
-use super::{LengthUnit, file, scan};
+use super::{LengthUnit, file, scan, text};
 use crate::error::Result;
 use glam::DVec3;
 use std::collections::HashSet;
@@ -17,8 +17,7 @@ use std::path::Path;
 /// [`Error::Parse`](crate::Error::Parse) with the line.
 pub(super) fn read(path: &Path) -> Result<Soup> {
     let bytes = file::read(path)?;
-    // Names and comments may be in any encoding; numbers are ASCII.
-    let text = String::from_utf8_lossy(&bytes);
+    let text = text::decode(&bytes);
     let joined = if text.contains('\\') { join_continued(&text) } else { text.into_owned() };
     let unit = joined
         .lines()
@@ -71,12 +70,13 @@ fn stray_lines(faces: &[Vec<u32>], lines: &[Vec<u32>]) -> usize {
     lines.iter().filter(leaves).count()
 }
 
-/// Join lines that end in a backslash with the next, keeping the count of lines.
+/// Join lines that end in a backslash with the next, keeping the count of lines. A comment may end in a folder's name.
 fn join_continued(text: &str) -> String {
     let mut joined = String::with_capacity(text.len());
     let mut owed = 0;
     for line in text.lines() {
-        if let Some(start) = line.strip_suffix('\\') {
+        let comment = line.trim_start().starts_with('#');
+        if let Some(start) = line.trim_end().strip_suffix('\\').filter(|_| !comment) {
             joined.push_str(start);
             joined.push(' ');
             owed += 1;

@@ -3,7 +3,7 @@
 use super::grid_file::GridFile;
 use super::scan::{self, Line};
 use super::soup::Soup;
-use super::{LengthUnit, file};
+use super::{LengthUnit, file, text};
 use crate::error::Result;
 use glam::DVec3;
 use std::fmt::Write;
@@ -15,7 +15,7 @@ use std::path::Path;
 /// [`Error::Parse`](crate::Error::Parse) with the line.
 pub(super) fn read(path: &Path) -> Result<Soup> {
     let bytes = file::read(path)?;
-    let text = String::from_utf8_lossy(&bytes);
+    let text = text::decode(&bytes);
     let mut lines = scan::lines(path, &text);
     let ends = || {
         scan::error(path, "end of file", "the file ends before all vertices and faces are given")
@@ -44,7 +44,7 @@ pub(super) fn read(path: &Path) -> Result<Soup> {
 fn counts<'a>(lines: &mut impl Iterator<Item = Line<'a>>) -> Result<Option<[u64; 2]>> {
     let Some(mut line) = lines.next() else { return Ok(None) };
     let mut words = line.text.split_ascii_whitespace().peekable();
-    if let Some(keyword) = words.next_if(|w| w.ends_with("OFF")) {
+    if let Some(keyword) = words.next_if(|w| w.to_ascii_uppercase().ends_with("OFF")) {
         if keyword.contains(['4', 'n']) {
             return Err(line.error(format!("`{keyword}`: only three dimensions can be read")));
         }

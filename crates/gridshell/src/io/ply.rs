@@ -51,7 +51,7 @@ struct Head {
     unit: Option<LengthUnit>,
 }
 
-/// Read the elements `vertex` (x, y, z) and `face` (`vertex_indices` or `vertex_index`); others, and other
+/// Read the elements `vertex` (x, y, z), `face` and `tristrips` (`vertex_indices` or `vertex_index`); others, and other
 /// properties, are passed over.
 ///
 /// # Errors
@@ -65,6 +65,7 @@ pub(super) fn read(path: &Path) -> Result<Soup> {
         match element.name.as_str() {
             "vertex" => read_vertices(&mut body, element, &mut soup)?,
             "face" => read_faces(&mut body, element, &mut soup)?,
+            "tristrips" => read_strips(&mut body, element, &mut soup)?,
             _ => body.skip(element)?,
         }
     }
@@ -91,7 +92,10 @@ fn split_head<'a>(path: &Path, bytes: &'a [u8]) -> Result<(Head, &'a [u8])> {
     let mut head = Head { encoding: Encoding::Text, elements: Vec::new(), unit: None };
     let mut rest = bytes;
     let mut number = 0;
-    while let Some(end) = rest.iter().position(|&b| b == b'\n') {
+    // Lines end as the first one does: in a binary body either byte may follow the head.
+    let old = bytes.starts_with(b"ply\r") && !bytes.starts_with(b"ply\r\n");
+    let ends = if old { b'\r' } else { b'\n' };
+    while let Some(end) = rest.iter().position(|&b| b == ends) {
         number += 1;
         let line = String::from_utf8_lossy(&rest[..end]);
         rest = &rest[end + 1..];
@@ -203,10 +207,11 @@ fn read_vertices(body: &mut Body, element: &Element, soup: &mut Soup) -> Result<
     Ok(())
 }
 
+fn is_corners(p: &Property) -> bool {
+    p.list.is_some() && matches!(p.name.as_str(), "vertex_indices" | "vertex_index")
+}
+
 fn read_faces(body: &mut Body, element: &Element, soup: &mut Soup) -> Result<()> {
-    let is_corners = |p: &Property| {
-        p.list.is_some() && matches!(p.name.as_str(), "vertex_indices" | "vertex_index")
-    };
     if !element.properties.iter().any(is_corners) {
         return Err(scan::error(
             body.path,
@@ -224,13 +229,34 @@ fn read_faces(body: &mut Body, element: &Element, soup: &mut Soup) -> Result<()>
                 body.pass(property)?;
             }
         }
-        let corners = face.iter().map(|&v| {
-            let whole = v >= 0.0 && v < f64::from(u32::MAX) && v.fract() == 0.0;
-            if whole { Ok(v as u32) } else { Err(body.error(&format!("{v} is no vertex number"))) }
-        });
-        let corners: Vec<u32> = corners.collect::<Result<_>>()?;
+        let corners: Vec<u32> = face.iter().map(|&v| body.vertex(v)).collect::<Result<_>>()?;
         if corners.len() >= 3 {
             soup.faces.push(corners);
+        }
+    }
+    Ok(())
+}
+
+/// Strips of triangles, as scanners write them: each vertex makes a triangle with the two before it; -1 ends a strip.
+fn read_strips(body: &mut Body, element: &Element, soup: &mut Soup) -> Result<()> {
+    for k in 0..element.count {
+        body.place = format!("strip {k}");
+        let mut corners = Vec::new();
+        for property in &element.properties {
+            if is_corners(property) {
+                body.list(property, |v| corners.push(v))?;
+            } else {
+                body.pass(property)?;
+            }
+        }
+        for strip in corners.split(|&v| v == -1.0) {
+            let strip = strip.iter().map(|&v| body.vertex(v)).collect::<Result<Vec<u32>>>()?;
+            for (k, t) in strip.windows(3).enumerate() {
+                // Strips go on by standing still.
+                if t[0] != t[1] && t[1] != t[2] && t[2] != t[0] {
+                    soup.faces.push(if k % 2 == 0 { t.to_vec() } else { vec![t[1], t[0], t[2]] });
+                }
+            }
         }
     }
     Ok(())
@@ -248,6 +274,12 @@ struct Body<'a> {
 impl Body<'_> {
     fn error(&self, message: &str) -> Error {
         scan::error(self.path, self.place.clone(), message)
+    }
+
+    /// A number as that of a vertex.
+    fn vertex(&self, v: f64) -> Result<u32> {
+        let whole = v >= 0.0 && v < f64::from(u32::MAX) && v.fract() == 0.0;
+        if whole { Ok(v as u32) } else { Err(self.error(&format!("{v} is no vertex number"))) }
     }
 
     fn cut_off(&self) -> Error {

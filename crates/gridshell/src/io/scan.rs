@@ -44,7 +44,8 @@ impl<'a> Line<'a> {
         let Some(word) = word else {
             return Err(self.error(format!("{what} is missing")));
         };
-        word.parse().map_err(|_| self.error(format!("`{}` is not {what}", clip(word))))
+        let hint = if word.contains(',') { ": write numbers with a point" } else { "" };
+        word.parse().map_err(|_| self.error(format!("`{}` is not {what}{hint}", clip(word))))
     }
 
     /// Three coordinates from the next words.

@@ -3,7 +3,7 @@
 
 use super::grid_file::GridFile;
 use super::soup::{Digits, Soup};
-use super::{LengthUnit, file, scan, weld};
+use super::{LengthUnit, file, scan, text, weld};
 use crate::error::Result;
 use glam::{DVec3, Vec3};
 use std::path::Path;
@@ -22,8 +22,16 @@ const COARSE: f64 = 1e-5;
 pub(super) fn read(path: &Path) -> Result<Soup> {
     let bytes = file::read(path)?;
     let facets = bytes.get(80..HEAD).map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]) as usize);
-    let text_like = bytes.trim_ascii_start().starts_with(b"solid");
+    let start = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes).trim_ascii_start();
+    let text_like = start.get(..5).is_some_and(|s| s.eq_ignore_ascii_case(b"solid"));
+    let whole = bytes.len().saturating_sub(HEAD) / FACET;
     let mut soup = match facets {
+        // Who writes as he goes may never come back to the count.
+        Some(0) if !text_like && whole > 0 && bytes.len() == HEAD + whole * FACET => {
+            let soup = read_binary(path, &bytes[HEAD..], whole)?;
+            let note = format!("the head promises no facets, but there are {whole}: all were read");
+            Soup { digits: Digits::Single, notes: vec![note], ..soup }
+        }
         Some(n) if bytes.len() - HEAD >= n.saturating_mul(FACET) && (n > 0 || !text_like) => {
             let unit = LengthUnit::stated(&String::from_utf8_lossy(&bytes[..80]));
             Soup { unit, digits: Digits::Single, ..read_binary(path, &bytes[HEAD..], n)? }
@@ -31,7 +39,6 @@ pub(super) fn read(path: &Path) -> Result<Soup> {
         // A text file has no zero bytes; a cut-off binary one surely does.
         _ if text_like && !bytes.contains(&0) => read_text(path, &bytes)?,
         Some(n) => {
-            let whole = (bytes.len() - HEAD) / FACET;
             let message =
                 format!("the file ends here, but its head promises {n} facets; export it again");
             return Err(scan::error(path, format!("facet {}", whole + 1), message));
@@ -70,12 +77,12 @@ fn read_binary(path: &Path, bytes: &[u8], facets: usize) -> Result<Soup> {
 }
 
 fn read_text(path: &Path, bytes: &[u8]) -> Result<Soup> {
-    let text = String::from_utf8_lossy(bytes);
+    let text = text::decode(bytes);
     let mut soup = Soup::default();
     let mut corners = Vec::new();
     for line in scan::lines(path, &text) {
         let mut words = line.text.split_ascii_whitespace();
-        match words.next() {
+        match words.next().map(str::to_ascii_lowercase).as_deref() {
             Some("vertex") => corners.push(line.point(&mut words)?),
             Some("endloop") => {
                 let Ok(facet) = <[DVec3; 3]>::try_from(std::mem::take(&mut corners)) else {
@@ -83,7 +90,7 @@ fn read_text(path: &Path, bytes: &[u8]) -> Result<Soup> {
                 };
                 push_facet(&mut soup, facet);
             }
-            None | Some("solid" | "facet" | "outer" | "endfacet" | "endsolid") => {}
+            None | Some("solid" | "facet" | "outer" | "endfacet" | "endsolid" | "color") => {}
             Some(word) => {
                 return Err(line.error(format!("`{}` is no word of STL", scan::clip(word))));
             }

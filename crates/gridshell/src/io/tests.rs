@@ -168,6 +168,11 @@ fn bad_input_names_its_line() {
         ("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "line 4"),
         ("zero.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", "line 4"),
         ("word.obj", "# head\nv 0 0 0\nv 1 x 0\n", "line 3"),
+        (
+            "comma.obj",
+            "v 0,5 0 0\n",
+            "line 1: `0,5` is not a coordinate (x): write numbers with a point",
+        ),
         ("inf.obj", "v 0 0 inf\n", "line 1"),
         ("continued.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\n 2 3\nf 1 2\n", "line 6"),
         ("short.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2", "line 5"),
@@ -184,6 +189,88 @@ fn bad_input_names_its_line() {
     }
     assert!(Scratch::new("empty.obj", "").refused().contains("no faces"));
     assert!(Scratch::new("empty.stl", "").refused().contains("no STL"));
+}
+
+/// Two quads side by side, in OBJ.
+const PAIR: &str = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nf 1 2 5 4\nf 2 3 6 5\n";
+
+#[test]
+fn texts_are_read_whichever_program_wrote_them() {
+    let wide = |text: &str| text.encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
+    let stl = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+               element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    for (name, bytes, faces) in [
+        ("mark.obj", [b"\xEF\xBB\xBF", PAIR.as_bytes()].concat(), 2),
+        ("wide.obj", [b"\xFF\xFE".to_vec(), wide(PAIR)].concat(), 2),
+        ("mac.obj", PAIR.replace('\n', "\r").into(), 2),
+        // A folder in a comment is no continuation, a backslash before blanks is one.
+        ("folder.obj", format!("# from C:\\roofs\\\n{PAIR}").into(), 2),
+        ("blanks.obj", PAIR.replace("1 2 5", "1 2 \\ \n5").into(), 2),
+        ("mac.ply", ply.replace('\n', "\r").into(), 1),
+        ("mark.off", b"\xEF\xBB\xBFoff\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n".to_vec(), 1),
+        ("loud.stl", format!("SOLID A\n{}ENDSOLID\n", stl.to_uppercase()).into(), 1),
+        ("mark.stl", format!("\u{FEFF}solid a\ncolor 1 0 0\n{stl}endsolid\n").into(), 1),
+        ("mac.stl", format!("solid a\n{stl}endsolid\n").replace('\n', "\r").into(), 1),
+    ] {
+        let mesh = Scratch::new(name, bytes).read().expect(name);
+        assert_eq!((mesh.faces.len(), mesh.points.len()), (faces, faces * 3), "{name}");
+    }
+}
+
+#[test]
+fn binary_stl_whose_count_was_never_filled_in_is_read_to_its_end() {
+    let mut stl = vec![b' '; 84];
+    stl[80..].fill(0);
+    for c in [0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0_u8].map(f32::from) {
+        stl.extend(c.to_le_bytes());
+    }
+    stl.extend([0, 0]);
+    let mesh = Scratch::new("uncounted.stl", stl).read().expect("a mesh");
+    assert_eq!(mesh.faces.len(), 1);
+    assert!(mesh.notes.iter().any(|n| n.contains("no facets")), "{:?}", mesh.notes);
+}
+
+#[test]
+fn strips_of_a_ply_are_triangles_that_agree() {
+    let ply = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n\
+               element tristrips 1\nproperty list int int vertex_indices\nend_header\n\
+               0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n8 1 0 3 2 -1 2 4 3\n";
+    let mesh = Scratch::new("strips.ply", ply).read().expect("a mesh");
+    assert_eq!((mesh.faces.len(), mesh.points.len()), (3, 5));
+    assert!(!mesh.notes.iter().any(|n| n.contains("turned")), "{:?}", mesh.notes);
+    let beyond = ply.replace(" 4 3\n", " 9 3\n");
+    assert!(Scratch::new("beyond.ply", beyond).refused().contains("vertex 9"));
+}
+
+#[test]
+fn a_t_junction_leaves_no_slit() {
+    // The large quad does not know the vertex between its two small neighbours.
+    let text = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 2 1 0\nv 3 0 0\nv 3 1 0\nv 3 2 0\n\
+                f 1 2 3 4\nf 2 6 7 5\nf 5 7 8 3\n";
+    let mesh = Scratch::new("slit.obj", text).read().expect("a mesh");
+    assert!(mesh.notes.iter().any(|n| n.contains("joined 1 vertices")), "{:?}", mesh.notes);
+    let sampling = Sampling { max_edge: 9.0, chord_error: 1.0, corner_angle: 0.5 };
+    let surface = mesh.surface(&sampling).expect("a surface");
+    assert_eq!((surface.loops.len(), surface.euler_characteristic()), (1, 1));
+    assert!((surface.area - 6.0).abs() < 1e-12);
+}
+
+#[test]
+fn copies_of_vertices_further_apart_than_rounding_are_sewn_when_asked() {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1.0003 0 0\nv 0 1.0003 0\nv 1 1 0\nf 1 2 3\nf 4 6 5\n";
+    let file = Scratch::new("apart.obj", text);
+    assert_eq!(file.read().expect("two pieces").points.len(), 6);
+    let sewn = |sew| read_mesh_with(&file.0, &Opening { sew: Some(sew), ..Opening::default() });
+    assert_eq!(sewn(0.001).expect("one piece").points.len(), 4);
+    assert!(sewn(0.5).expect_err("too much").to_string().contains("from 0 to 0.01"));
+}
+
+#[test]
+fn files_without_faces_say_what_they_have() {
+    let said = Scratch::new("cloud.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n").refused();
+    assert!(said.contains("only 2 vertices; export"), "{said}");
+    assert!(Scratch::new("page.obj", "<html></html>\n").refused().contains("not of this format"));
 }
 
 #[test]
@@ -359,6 +446,19 @@ fn compas_meshes_old_and_new_are_read_and_openings_left_out() {
 }
 
 #[test]
+fn compas_faces_as_rings_and_meshes_as_lists_are_read() {
+    let vertices = r#"{"a":{"x":0,"y":0,"z":0},"b":{"x":1,"y":0,"z":0},"7":{"x":0,"y":1,"z":0}}"#;
+    let ring = format!(r#"{{"vertex":{vertices},"face":{{"0":{{"a":"b","b":7,"7":"a"}}}}}}"#);
+    assert_eq!(Scratch::new("ring.json", ring).read().expect("a ring").faces, [[0, 1, 2]]);
+    let lists = r#"{"vertices":[[0,0,0],[1,0,0],[0,1,0]],"faces":[[0,1,2]]}"#;
+    assert_eq!(Scratch::new("lists.json", lists).read().expect("lists").faces, [[0, 1, 2]]);
+    let beyond = Scratch::new("beyond.json", lists.replace("[0,1,2]]", "[0,1,3]]")).refused();
+    assert!(beyond.contains("face 0: 3 is no place"), "{beyond}");
+    let odd = Scratch::new("odd.json", lists.replace("[1,0,0]", "[NaN,0,0]")).refused();
+    assert!(odd.contains("line 1") && odd.contains("`NaN`"), "{odd}");
+}
+
+#[test]
 fn of_a_compas_session_the_thrust_diagram_is_taken() {
     let flat = FORM.replace("0.25", "0").replace("\"z\": 3", "\"z\": 0");
     let session = format!(
@@ -409,6 +509,23 @@ fn gltf_is_placed_by_its_nodes_with_z_up() {
     let [a, b, c] = [0, 1, 2].map(|k| mesh.points[mesh.faces[0][k] as usize]);
     assert!((b - a).cross(c - a).y > 0.0);
     assert!(mesh.notes.is_empty(), "{:?}", mesh.notes);
+}
+
+#[test]
+fn sparse_gltf_has_its_items_replaced() {
+    // Points that are zero but for two, whose places lie in a buffer of their own.
+    let sparse = r#""sparse": {"count": 2, "indices": {"bufferView": 1, "componentType": 5121},
+        "values": {"bufferView": 0, "byteOffset": 12}}, "componentType""#;
+    let text = gltf("{\"mesh\": 0}")
+        .replace("\"bufferView\": 0, \"componentType\"", sparse)
+        .replace("36}],", "36}, {\"buffer\": 1, \"byteLength\": 2}],")
+        .replace("\"}]}", "\"}, {\"uri\": \"data:;base64,AQI=\"}]}");
+    let mesh = Scratch::new("sparse.gltf", &text).read().expect("a mesh");
+    assert_eq!(mesh.points, [DVec3::ZERO, DVec3::X, DVec3::new(0.0, 0.0, 2.0)]);
+    let beyond = Scratch::new("beyond.gltf", text.replace("AQI=", "AQk=")).refused();
+    assert!(beyond.contains("accessor 0: it replaces item 9 of 3"), "{beyond}");
+    let huge = Scratch::new("huge.gltf", text.replace("\"count\": 3", "\"count\": 4000000000"));
+    assert!(huge.refused().contains("accessor 0"), "zeros cost the file nothing");
 }
 
 #[test]

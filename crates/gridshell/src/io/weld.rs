@@ -1,12 +1,12 @@
 //! The door every mesh comes through: from a soup of faces to an oriented manifold in metres.
 //!
 //! In turn: check the coordinates, merge vertices at the same place, leave out small pieces far away, drop
-//! degenerate and repeated faces, cut off slivers on edges with more than two faces and refuse the others, turn
+//! degenerate and repeated faces, join T-junctions, cut off slivers on edges with more than two faces and refuse the others, turn
 //! neighbours to agree, choose the outside, part pieces that touch in one vertex, and drop unused vertices. What
 //! was done is told in the notes.
 
 use super::soup::Soup;
-use super::{LengthUnit, far, file, fins, merge, turn};
+use super::{LengthUnit, Opening, far, file, fins, merge, stitch, turn};
 use crate::error::{Error, Result};
 use crate::surface::nurbs::FARTHEST;
 use crate::surface::{PolygonMesh, Source, ear};
@@ -38,24 +38,30 @@ pub(super) struct Work {
     pub merged: usize,
 }
 
-/// The soup as a manifold, its faces oriented alike. The `unit` wanted goes before the one stated.
+/// The soup as a manifold, its faces oriented alike. What the `opening` says of unit and tolerance goes
+/// before what the file does.
 ///
 /// # Errors
 /// [`Error::Surface`] where there is no face, a coordinate out of bounds, an edge of more than two faces, or the
 /// surface has one side only.
-pub(super) fn weld(path: &Path, soup: Soup, unit: Option<LengthUnit>) -> Result<PolygonMesh> {
+pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening) -> Result<PolygonMesh> {
     let digits = soup.digits;
-    let mut work = Work::new(path, soup, unit)?;
+    if soup.faces.is_empty() {
+        return Err(Error::Surface(no_faces(path, soup.points.len())));
+    }
+    let mut work = Work::new(path, soup, opening.unit)?;
     merge::identical(&mut work);
     far::drop_far(&mut work);
-    merge::close(&mut work, digits);
+    let tolerance = merge::tolerance(&work, digits, opening.sew)?;
+    merge::close(&mut work, tolerance);
     let merged = work.merged;
     work.note_count(merged, "merged", "duplicate vertices");
     drop_degenerate(&mut work);
     if work.faces.is_empty() {
-        return Err(Error::Surface(format!("{}: the file holds no faces", path.display())));
+        return Err(Error::Surface(no_faces(path, work.points.len())));
     }
     check_area(path, &work)?;
+    stitch::stitch(&mut work, tolerance);
     fins::cut(path, &mut work)?;
     let neighbors = neighbors(&work.faces);
     turn::alike(path, &mut work, &neighbors)?;
@@ -63,7 +69,14 @@ pub(super) fn weld(path: &Path, soup: Soup, unit: Option<LengthUnit>) -> Result<
     drop_unused(&mut work);
     note_many_sided(&mut work);
     let Work { points, faces, notes, .. } = work;
-    Ok(PolygonMesh { name: file::stem(path), points, faces, notes, source: Source::default() })
+    Ok(PolygonMesh {
+        name: file::stem(path),
+        points,
+        faces,
+        notes,
+        source: Source::default(),
+        smoothing: None,
+    })
 }
 
 impl Work {
@@ -163,6 +176,14 @@ impl Work {
         self.notes.push(format!("dropped {count} {what}, the first is face {number}"));
         self.drop_faces(gone);
     }
+}
+
+fn no_faces(path: &Path, points: usize) -> String {
+    let path = path.display();
+    if points == 0 {
+        return format!("{path}: the file holds no faces: it is empty, or not of this format");
+    }
+    format!("{path}: the file holds no faces, only {points} vertices; export the surface as a mesh")
 }
 
 /// Refuse faces that all together have no area to speak of.

@@ -9,6 +9,7 @@ mod contest;
 mod effort;
 mod narrow;
 mod parts;
+mod smoothing;
 mod starts;
 mod symmetry;
 mod wishes;
@@ -23,6 +24,7 @@ use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
 use crate::surface::{Model, Ruler, Sampling, Surface, builtin};
 use rayon::prelude::*;
+pub use smoothing::smoothed;
 use starts::{Start, Starts};
 use std::time::Instant;
 
@@ -38,7 +40,7 @@ const SENSIBLE_NODES: usize = 1000;
 /// several parts of which the recipe chooses none, [`Error::NoGrid`] where no valid grid of this edge length exists.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
-    parts::generate(model, recipe, job)
+    parts::generate(&*smoothed(model, recipe)?, recipe, job)
 }
 
 /// Lay a grid on a model of one part; the surface that it was laid on is given too.
@@ -64,7 +66,7 @@ fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
 /// As [`generate`].
 pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
     recipe.validate()?;
-    parts::surface(model, recipe)
+    parts::surface(&*smoothed(model, recipe)?, recipe)
 }
 
 /// The surface of a model of one part, and the wanted member length in metres.

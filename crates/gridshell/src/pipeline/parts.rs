@@ -80,6 +80,21 @@ pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
     }
 }
 
+/// The wanted member length, metres, on the parts that the recipe asks for.
+///
+/// # Errors
+/// As [`generate`].
+pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
+    let parts = model.parts();
+    match recipe.part {
+        Parts::Number(n) => super::edge_length(&model.of_faces(numbered(&parts, n)?), recipe),
+        Parts::All if parts.len() > MOST_LAID => Err(too_many(&parts)),
+        Parts::All if parts.len() > 1 => Ok(Pieces::new(model, &parts, recipe)?.length),
+        Parts::One if parts.len() > 1 => Err(Error::Surface(choice(model, &parts))),
+        Parts::One | Parts::All => super::edge_length(model, recipe),
+    }
+}
+
 /// The faces of part `n`, counted from 1.
 fn numbered(parts: &[Vec<u32>], n: usize) -> Result<&[u32]> {
     let faces = n.checked_sub(1).and_then(|k| parts.get(k));

@@ -44,6 +44,7 @@ pub mod section;
 pub mod sew;
 pub mod shape;
 mod size;
+pub mod smooth;
 pub mod source;
 mod stretch;
 pub mod tessellate;
@@ -64,6 +65,7 @@ pub use offset::OffsetSurface;
 pub use ruler::Ruler;
 pub use sew::{Sewing, sew};
 pub use shape::Shape;
+pub use smooth::{Smooth, Smoothing};
 pub use source::{Object, Source, Unit};
 pub use tessellate::tessellate;
 

@@ -1,6 +1,6 @@
 //! What a file or a built-in name gives, before it is sampled for an edge length.
 
-use super::{Brep, Source, Surface, tessellate};
+use super::{Brep, Smoothing, Source, Surface, tessellate};
 use crate::error::Result;
 use glam::DVec3;
 
@@ -26,6 +26,8 @@ pub struct PolygonMesh {
     pub source: Source,
     /// What was skipped or repaired while reading, for the user.
     pub notes: Vec<String>,
+    /// What smoothing did; None before.
+    pub smoothing: Option<Smoothing>,
 }
 
 /// How finely a model is sampled.

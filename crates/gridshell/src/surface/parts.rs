@@ -102,10 +102,10 @@ fn mesh_of(mesh: &PolygonMesh, faces: &[u32]) -> PolygonMesh {
 
 impl PolygonMesh {
     /// All but points and faces.
-    fn without_faces(&self) -> PolygonMesh {
+    pub(super) fn without_faces(&self) -> PolygonMesh {
         let (points, faces) = (Vec::new(), Vec::new());
         let (name, source, notes) = (self.name.clone(), self.source.clone(), self.notes.clone());
-        PolygonMesh { name, points, faces, source, notes }
+        PolygonMesh { name, points, faces, source, notes, smoothing: self.smoothing }
     }
 }
 

@@ -10,7 +10,7 @@ use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 
 /// More triangles than this are refused: at about 300 bytes each they would fill a small machine.
-const MAX_TRIANGLES: f64 = 4e6;
+pub(super) const MAX_TRIANGLES: f64 = 4e6;
 
 impl PolygonMesh {
     /// The mesh as a surface, with no triangle edge longer than the sampling's longest.
@@ -19,7 +19,7 @@ impl PolygonMesh {
     /// [`Error::Surface`] where there is no face, or the sampling is far too fine for the mesh.
     pub fn surface(&self, sampling: &Sampling) -> Result<Surface> {
         let mut points = self.points.clone();
-        let mut triangles = self.split(&mut points);
+        let (mut triangles, _) = self.split(&mut points);
         cap::flatten(&points, &mut triangles);
         if triangles.is_empty() {
             return Err(Error::Surface(format!("{}: the mesh has no faces", self.name)));
@@ -36,14 +36,14 @@ impl PolygonMesh {
     }
 
     /// All faces in triangles. A face whose diagonal would double an edge of the mesh is split from its
-    /// middle instead: between two vertices there is one edge only.
-    fn split(&self, points: &mut Vec<DVec3>) -> Vec<[u32; 3]> {
+    /// middle instead: between two vertices there is one edge only. With each triangle comes its face.
+    pub(super) fn split(&self, points: &mut Vec<DVec3>) -> (Vec<[u32; 3]>, Vec<u32>) {
         let mut edges: HashSet<(u32, u32)> = HashSet::new();
         for face in &self.faces {
             edges.extend((0..face.len()).map(|k| sorted(face[k], face[(k + 1) % face.len()])));
         }
-        let mut triangles = Vec::new();
-        for face in &self.faces {
+        let (mut triangles, mut face_of) = (Vec::new(), Vec::new());
+        for (f, face) in self.faces.iter().enumerate() {
             let from = triangles.len();
             split(&self.points, face, &mut triangles);
             let diagonals = diagonals(face, &triangles[from..]);
@@ -59,8 +59,9 @@ impl PolygonMesh {
             } else {
                 edges.extend(diagonals);
             }
+            face_of.resize(triangles.len(), f as u32);
         }
-        triangles
+        (triangles, face_of)
     }
 
     /// Halving goes on by powers of two, so a triangle yields about as many as its edges hold `max_edge`,
@@ -138,7 +139,7 @@ fn halve(points: &mut Vec<DVec3>, triangles: &[[u32; 3]], max_edge: f64) -> Opti
 }
 
 /// Divide the triangle a b c by the middles of its edges a b (the longest), b c and c a.
-fn divide([a, b, c]: [u32; 3], middles: [Option<u32>; 3], out: &mut Vec<[u32; 3]>) {
+pub(super) fn divide<T: Copy>([a, b, c]: [T; 3], middles: [Option<T>; 3], out: &mut Vec<[T; 3]>) {
     match middles {
         [Some(m), Some(n), Some(o)] => out.extend([[a, m, o], [m, b, n], [o, n, c], [m, n, o]]),
         [Some(m), Some(n), None] => out.extend([[a, m, c], [m, b, n], [m, n, c]]),

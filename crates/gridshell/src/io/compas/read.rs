@@ -1,4 +1,4 @@
-//! COMPAS meshes: `vertex` and `face` as objects by key, in `data` or, in old files, in `value` or at the top.
+//! COMPAS meshes: `vertex` and `face` as objects by key (or `vertices` and `faces` as lists), in `data` or, in old files, in `value` or at the top.
 //! Session files hold several of them in depth. COMPAS states no unit.
 
 use super::super::json::{self, Json};
@@ -40,7 +40,9 @@ pub(in crate::io) fn read(path: &Path) -> Result<Soup> {
         return Err(scan::error(
             path,
             "whole file",
-            format!("there is no COMPAS mesh, with `vertex` and `face`, in it{kind}"),
+            format!(
+                "there is no COMPAS mesh, with `vertex` and `face`, in it{kind}; export the surface as a Mesh"
+            ),
         ));
     };
     let mut soup = soup(path, found[best].mesh)?;
@@ -76,7 +78,8 @@ fn find<'a>(tree: &'a Json, way: &mut Vec<Step<'a>>, kind: &'a str, found: &mut 
     }
     let kind = tree.get("dtype").and_then(Json::text).unwrap_or(kind);
     let is_map = |name: &str| matches!(tree.get(name), Some(Json::Map(_)));
-    if is_map("vertex") && is_map("face") {
+    let is_list = |name: &str| matches!(tree.get(name), Some(Json::List(_)));
+    if is_map("vertex") && is_map("face") || is_list("vertices") && is_list("faces") {
         found.push(Found { way: told_way(way), kind, mesh: tree });
         return;
     }
@@ -113,7 +116,52 @@ fn rank(found: &Found) -> u8 {
     }
 }
 
+/// A mesh as plain lists: `vertices` of coordinates, `faces` of places in them.
+fn listed(path: &Path, vertices: &[Json], faces: &[Json]) -> Result<Soup> {
+    let mut soup = Soup::default();
+    for (k, vertex) in vertices.iter().enumerate() {
+        let numbers: Option<Vec<f64>> =
+            vertex.list().map(|l| l.iter().filter_map(Json::number).collect());
+        let xyz = numbers.and_then(|n| <[f64; 3]>::try_from(n).ok()).map(DVec3::from);
+        let xyz = xyz.filter(|p| p.is_finite());
+        soup.points.push(xyz.ok_or_else(|| {
+            fault(path, "vertex", &k.to_string(), "it is no list of x, y, z".into())
+        })?);
+    }
+    for (k, face) in faces.iter().enumerate() {
+        let place = |corner: &Json| {
+            let v = corner
+                .number()
+                .filter(|v| v.fract() == 0.0 && (0.0..vertices.len() as f64).contains(v));
+            let message = || format!("{} is no place in `vertices`, from 0", told(corner));
+            v.map(|v| v as u32).ok_or_else(|| fault(path, "face", &k.to_string(), message()))
+        };
+        let corners =
+            face.list().unwrap_or_default().iter().map(place).collect::<Result<Vec<u32>>>()?;
+        if corners.len() >= 3 {
+            soup.faces.push(corners);
+        }
+    }
+    Ok(soup)
+}
+
+/// The corners of a face: a list of vertex keys, or in old files the key after each key.
+fn corners(face: &Json) -> Option<Vec<Json>> {
+    let Json::Map(steps) = face else { return face.list().map(<[Json]>::to_vec) };
+    let after: HashMap<&str, &Json> = steps.iter().map(|(from, to)| (&**from, to)).collect();
+    let mut corners = vec![Json::Text(steps.first()?.0.clone())];
+    while corners.len() < steps.len() {
+        let next = *after.get(corners.last().map(told)?.as_str())?;
+        corners.push(next.clone());
+    }
+    Some(corners)
+}
+
 fn soup(path: &Path, mesh: &Json) -> Result<Soup> {
+    let list = |name: &str| mesh.get(name).and_then(Json::list);
+    if let (Some(vertices), Some(faces)) = (list("vertices"), list("faces")) {
+        return listed(path, vertices, faces);
+    }
     let vertices = mesh.get("vertex").map_or(&[][..], Json::members);
     let faces = mesh.get("face").map_or(&[][..], Json::members);
     let usual = mesh.get("default_vertex_attributes").or_else(|| mesh.get("dva"));
@@ -146,11 +194,10 @@ fn soup(path: &Path, mesh: &Json) -> Result<Soup> {
         if *corners == Json::Null {
             continue;
         }
-        let corners = corners
-            .list()
+        let corners = self::corners(corners)
             .ok_or_else(|| fault(path, "face", key, "it is no list of vertex keys".into()))?;
         let mut face = Vec::with_capacity(corners.len());
-        for corner in corners {
+        for corner in &corners {
             let v = vertex(corner, &numbers).ok_or_else(|| {
                 fault(path, "face", key, format!("vertex {} is not among `vertex`", told(corner)))
             })?;

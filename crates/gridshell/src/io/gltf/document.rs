@@ -73,7 +73,17 @@ pub(super) struct Accessor {
     #[serde(rename = "type")]
     pub kind: String,
     pub normalized: bool,
-    pub sparse: Option<serde::de::IgnoredAny>,
+    pub sparse: Option<Box<Sparse>>,
+}
+
+/// Items of an accessor that differ from what its buffer view holds.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Sparse {
+    pub count: usize,
+    /// Places of these items: an accessor but for its count.
+    pub indices: Accessor,
+    pub values: Accessor,
 }
 
 #[derive(Debug, Default, Deserialize)]

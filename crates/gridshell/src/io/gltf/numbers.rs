@@ -1,6 +1,6 @@
 //! Numbers out of a glTF file's buffers: accessors, views, and the bytes behind them.
 
-use super::document::{Accessor, Document};
+use super::document::{Accessor, Document, Sparse};
 use crate::error::{Error, Result};
 use crate::io::{file, scan};
 use base64::Engine;
@@ -11,6 +11,8 @@ use std::path::{Component, Path};
 
 /// More buffers are refused: each may be a large file.
 const MOST_BUFFERS: usize = 64;
+/// More points that all begin at zero are refused: they cost the file nothing.
+const MOST_ZEROS: usize = 1_000_000;
 /// Numbers of the types of components.
 const I8: u32 = 5120;
 const U8: u32 = 5121;
@@ -68,17 +70,51 @@ impl<'a> Numbers<'a> {
             (true, U16) => 1.0 / f64::from(u16::MAX),
             _ => 1.0,
         };
-        let mut points = Vec::new();
-        for (k, item) in self.items(accessor, at, 3)?.enumerate() {
+        let point = |item: &[u8]| {
             let size = item.len() / 3;
             let number = |c: usize| number(&item[c * size..(c + 1) * size], at.component_type);
             let p = DVec3::new(number(0), number(1), number(2)) * scale;
-            if !p.is_finite() {
-                return Err(self.error(accessor, format!("point {k} is not finite")));
+            if at.normalized { p.max(DVec3::NEG_ONE) } else { p }
+        };
+        let mut points: Vec<DVec3> = match (&at.sparse, at.buffer_view) {
+            (Some(_), None) if at.count <= MOST_ZEROS => vec![DVec3::ZERO; at.count],
+            _ => self.items(accessor, at, 3)?.map(point).collect(),
+        };
+        if let Some(sparse) = &at.sparse {
+            for (k, p) in self.replaced(accessor, at, sparse, point)? {
+                points[k] = p;
             }
-            points.push(if at.normalized { p.max(DVec3::NEG_ONE) } else { p });
         }
-        Ok(points)
+        match points.iter().position(|p| !p.is_finite()) {
+            Some(k) => Err(self.error(accessor, format!("point {k} is not finite"))),
+            None => Ok(points),
+        }
+    }
+
+    /// The points of an accessor that are given apart, with their places.
+    fn replaced(
+        &self,
+        accessor: usize,
+        at: &Accessor,
+        sparse: &Sparse,
+        point: impl Fn(&[u8]) -> DVec3,
+    ) -> Result<Vec<(usize, DVec3)>> {
+        let part = |of: &Accessor, component_type: u32| Accessor {
+            buffer_view: of.buffer_view,
+            byte_offset: of.byte_offset,
+            component_type,
+            count: sparse.count,
+            ..Accessor::default()
+        };
+        let places = part(&sparse.indices, sparse.indices.component_type);
+        let values = part(&sparse.values, at.component_type);
+        let place = |item: &[u8]| match number(item, places.component_type) {
+            k if k >= 0.0 && k < at.count as f64 => Ok(k as usize),
+            k => Err(self.error(accessor, format!("it replaces item {k} of {}", at.count))),
+        };
+        let places: Vec<usize> =
+            self.items(accessor, &places, 1)?.map(place).collect::<Result<_>>()?;
+        Ok(places.into_iter().zip(self.items(accessor, &values, 3)?.map(point)).collect())
     }
 
     /// The vertex numbers that an accessor holds.
@@ -87,6 +123,10 @@ impl<'a> Numbers<'a> {
     /// [`Error::Parse`] with the accessor.
     pub fn indices(&self, accessor: usize) -> Result<Vec<u32>> {
         let at = self.accessor(accessor, "SCALAR")?;
+        if at.sparse.is_some() {
+            let message = "vertex numbers in sparse accessors cannot be read; export without them";
+            return Err(self.error(accessor, message));
+        }
         if !matches!(at.component_type, U8 | U16 | U32) {
             return Err(self.error(accessor, "vertex numbers must be unsigned whole numbers"));
         }
@@ -103,11 +143,6 @@ impl<'a> Numbers<'a> {
         if at.kind != kind {
             let message = format!("it should be {kind}, but is `{}`", scan::clip(&at.kind));
             return Err(self.error(accessor, message));
-        }
-        if at.sparse.is_some() {
-            return Err(
-                self.error(accessor, "sparse accessors cannot be read; export without them")
-            );
         }
         Ok(at)
     }

@@ -6,7 +6,7 @@
 mod convert;
 
 use super::soup::Soup;
-use super::{Choice, LengthUnit, file, weld};
+use super::{Choice, LengthUnit, Opening, file, weld};
 use crate::error::{Error, Result};
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::NurbsCurve;
@@ -385,7 +385,7 @@ impl<'a> Reading<'a> {
         if self.brep.faces.is_empty() && !self.mesh.faces.is_empty() {
             // The decoder has brought it to metres.
             let soup = Soup { notes, unit: Some(LengthUnit::Metre), ..self.mesh };
-            let mesh = weld::weld(path, soup, None)?;
+            let mesh = weld::weld(path, soup, &Opening::default())?;
             return Ok(Model::Mesh(PolygonMesh { source, ..mesh }));
         }
         if self.brep.faces.is_empty() {
