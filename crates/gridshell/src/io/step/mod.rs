@@ -22,7 +22,7 @@ mod trimmed;
 mod units;
 
 use super::soup::Soup;
-use super::weld;
+use super::{Opening, weld};
 use crate::error::{Error, Result};
 use crate::surface::{Brep, Model, PolygonMesh, Source, Unit};
 use reading::Reading;
@@ -57,7 +57,7 @@ pub fn read(path: &Path) -> Result<Model> {
     match parse(file.take(MOST_BYTES)).map_err(|(place, what)| fault(path, &place, &what))? {
         Found::Faces(brep) => Ok(Model::Brep(Brep { name, ..brep })),
         Found::Triangles(soup, source) => {
-            let mesh = weld::weld(path, soup, None)?;
+            let mesh = weld::weld(path, soup, &Opening::default())?;
             Ok(Model::Mesh(PolygonMesh { source, ..mesh }))
         }
     }
