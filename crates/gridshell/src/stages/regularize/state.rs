@@ -229,7 +229,13 @@ impl<'a> State<'a> {
         let from = near.into_iter().flatten().find(inside).unwrap_or(a) as usize;
         let start = self.grid.places[from].surface_point(self.surface);
         let middle = (xyz[a as usize] + xyz[b as usize]) * 0.5;
-        Place::Interior(self.surface.carrier.trace(&start, middle - xyz[from]))
+        let carrier = &self.surface.carrier;
+        let end = carrier.trace(&start, middle - xyz[from]);
+        if !carrier.is_at_boundary(&end) {
+            return Place::Interior(end);
+        }
+        // On the boundary itself the next one would be at one place with this.
+        Place::Interior(carrier.trace(&start, (carrier.xyz(&end) - xyz[from]) * 0.5))
     }
 
     fn middle_on_loop(&self, a: u32, b: u32) -> Place {
@@ -494,7 +500,7 @@ mod tests {
             let mut state = State::new(&surface, grid.clone(), LENGTH, 0.9);
             let m = state.split(a, b).expect("an inner member");
             let at = state.grid.xyz[m as usize];
-            assert!(at.distance(DVec3::new(0.0, 0.75, 0.0)) < 1e-9, "{at}");
+            assert!(at.distance(DVec3::new(0.0, 1.625, 0.0)) < 1e-9, "{at}");
         }
     }
 
