@@ -14,7 +14,6 @@ mod system;
 
 use crate::grid::{Grid, Place};
 use crate::job::{Job, Picture};
-use crate::math::frame::tangents;
 use crate::surface::Surface;
 use glam::DVec3;
 use system::System;
@@ -124,7 +123,7 @@ fn directions(surface: &Surface, grid: &Grid, i: usize) -> [DVec3; 2] {
             if normal == DVec3::ZERO {
                 return [DVec3::ZERO; 2];
             }
-            tangents(normal)
+            normal.any_orthonormal_pair().into()
         }
         Place::Boundary(c) => {
             [surface.loops[c.chain as usize].tangent(&surface.carrier, c.s), DVec3::ZERO]
