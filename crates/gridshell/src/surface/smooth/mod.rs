@@ -1,8 +1,8 @@
 //! A smooth surface through the vertices of a coarse mesh, as a mesh fine enough to be taken for it.
 //!
-//! Normals at the vertices ([`normals`]), smooth curves between corners along boundary and creases ([`lines`]), and
-//! over each triangle a patch that meets its neighbours with one tangent plane ([`patch`], G1). Patches are then
-//! divided until their pieces are as good as flat ([`pieces`]).
+//! Normals at the vertices (`normals`), smooth curves between corners along boundary and creases (`lines`), and
+//! over each triangle a patch that meets its neighbours with one tangent plane (`patch`, G1). Patches are then
+//! divided until their pieces are as good as flat (`pieces`).
 //!
 //! What is plane stays plane; where faces are finer than wanted, they stay as they are.
 
