@@ -14,6 +14,7 @@ mod system;
 
 use crate::grid::{Grid, Place};
 use crate::job::{Job, Picture};
+use crate::math::frame::tangents;
 use crate::surface::Surface;
 use glam::DVec3;
 use system::System;
@@ -123,7 +124,7 @@ fn directions(surface: &Surface, grid: &Grid, i: usize) -> [DVec3; 2] {
             if normal == DVec3::ZERO {
                 return [DVec3::ZERO; 2];
             }
-            normal.any_orthonormal_pair().into()
+            tangents(normal)
         }
         Place::Boundary(c) => {
             [surface.loops[c.chain as usize].tangent(&surface.carrier, c.s), DVec3::ZERO]

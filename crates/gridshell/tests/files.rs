@@ -112,20 +112,34 @@ fn every_file_opens_with_the_area_loops_and_corners_of_its_table() {
     assert!(read >= least, "only {read} files are read");
 }
 
-#[test]
-fn the_same_roof_is_the_same_in_every_unit_and_schema() {
-    let roofs: Vec<Surface> = rows()
+/// The surfaces of all files whose names begin so.
+fn alike(start: &str) -> Vec<Surface> {
+    rows()
         .iter()
-        .filter(|r| r.path.file_name().unwrap().to_string_lossy().starts_with("roof"))
+        .filter(|r| r.path.file_name().unwrap().to_string_lossy().starts_with(start))
         .filter_map(|r| open(r).map(|s| s.unwrap().1))
-        .collect();
-    assert!(roofs.len() >= 4);
-    let first = &roofs[0];
-    for roof in &roofs {
-        assert!((roof.area / first.area - 1.0).abs() < 1e-6);
-        assert_eq!(roof.loops.len(), first.loops.len());
-        let length = |s: &Surface| s.loops.iter().map(Chain::length).sum::<f64>();
-        assert!((length(roof) / length(first) - 1.0).abs() < 1e-6);
+        .collect()
+}
+
+#[test]
+fn the_same_surface_has_the_same_carrier_in_every_format_unit_and_schema() {
+    // Files begin loops elsewhere, list faces and edges in other orders and run curves backwards.
+    for (start, least) in [("roof", 7), ("patch", 4)] {
+        let surfaces = alike(start);
+        assert!(surfaces.len() >= least);
+        let first = &surfaces[0];
+        for surface in &surfaces {
+            assert!((surface.area / first.area - 1.0).abs() < 1e-6);
+            let length = |s: &Surface| s.loops.iter().map(Chain::length).sum::<f64>();
+            assert!((length(surface) / length(first) - 1.0).abs() < 1e-6);
+            let (a, b) = (&surface.carrier, &first.carrier);
+            assert_eq!(a.triangles, b.triangles, "{}", surface.name);
+            let apart = a.points.iter().zip(&b.points).map(|(p, q)| p.distance(*q));
+            let farthest = apart.fold(0.0, f64::max);
+            assert!(farthest < 1e-6, "{}: {farthest} m apart", surface.name);
+            let corners = |s: &Surface| s.loops.iter().map(|l| l.vertices[0]).collect::<Vec<_>>();
+            assert_eq!(corners(surface), corners(first), "{}: loops begin elsewhere", surface.name);
+        }
     }
 }
 

@@ -8,6 +8,7 @@ pub(crate) mod chunks;
 pub(crate) mod conjugate;
 pub(crate) mod delaunay;
 pub mod dual;
+pub(crate) mod frame;
 pub(crate) mod least;
 pub(crate) mod multigrid;
 pub(crate) mod sparse;

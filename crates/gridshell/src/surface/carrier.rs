@@ -9,6 +9,9 @@ use glam::{DVec2, DVec3};
 /// No neighbour: the triangle's edge lies on the boundary.
 pub const NONE: u32 = u32::MAX;
 
+/// Share of a triangle's height below which a point is at its edge.
+const AT_BOUNDARY: f64 = 0.05;
+
 /// A fine, manifold, consistently oriented triangle mesh. Metres.
 #[derive(Clone, Debug, Default)]
 pub struct Carrier {
@@ -172,6 +175,12 @@ impl Carrier {
             v = turned;
         }
         p.normalized()
+    }
+
+    /// Whether `p` is at the boundary: in a triangle beside it, and so near that rounding may say on which side.
+    pub fn is_at_boundary(&self, p: &SurfacePoint) -> bool {
+        let t = p.triangle as usize;
+        (0..3).any(|k| self.neighbors[t][k] == NONE && p.bary[(k + 2) % 3] < AT_BOUNDARY)
     }
 
     /// Cross `edge` of triangle `t`: the neighbour, its own number for that edge, and `v` unfolded into

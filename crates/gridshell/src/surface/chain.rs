@@ -13,6 +13,9 @@ use glam::DVec3;
 /// curve at the vertex shows.
 const INSIDE: f64 = 1e-4;
 
+/// Loops are equally long when their lengths differ by no more than this share: files hold nine digits and more.
+const ALIKE: f64 = 1e-7;
+
 /// One segment of a chain: the carrier edge from vertex k to the next one.
 #[derive(Clone, Copy, Debug)]
 pub struct Segment {
@@ -250,8 +253,17 @@ pub fn boundary_loops(
             loops.push(chain);
         }
     }
-    loops.sort_by(|a, b| b.length().total_cmp(&a.length()));
+    longest_first(&mut loops);
     loops
+}
+
+/// Sort by length, the longest first; where lengths only differ by rounding, by the first vertex.
+fn longest_first(loops: &mut [Chain]) {
+    loops.sort_by(|a, b| b.length().total_cmp(&a.length()));
+    let alike = |a: &Chain, b: &Chain| a.length() - b.length() <= ALIKE * a.length();
+    for group in loops.chunk_by_mut(alike) {
+        group.sort_by_key(|l| l.vertices.iter().min().copied());
+    }
 }
 
 #[cfg(test)]

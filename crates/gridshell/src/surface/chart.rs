@@ -8,6 +8,7 @@
 
 use super::{Carrier, Chain, ChainPoint, Surface, SurfacePoint};
 use crate::math::conjugate::{conjugate_gradients, product};
+use crate::math::frame::tangents;
 use crate::math::multigrid::Multigrid;
 use crate::math::sparse::{Row, Sparse};
 use crate::math::trig::{atan2, cos, sin};
@@ -21,6 +22,8 @@ const SOLVER_STEPS: usize = 80;
 const ACCURACY: f64 = 1e-2;
 /// Rigid enough when a step begins with a residual below this share of the right side.
 const SETTLED: f64 = 1e-6;
+/// A triangle that is seen at a flatter angle than this, as its sine, is seen edge-on.
+const LEAST_SEEN: f64 = 1e-6;
 /// Smallest cotangent weight; obtuse pairs would make the system indefinite.
 const LEAST_WEIGHT: f64 = 0.02;
 
@@ -134,18 +137,21 @@ fn is_connected(carrier: &Carrier) -> bool {
     count == seen.len()
 }
 
-/// The carrier seen along its mean normal; None where a triangle is seen from behind.
+/// The carrier seen along its mean normal; None where a triangle is seen from behind or
+/// edge-on.
 fn projection(carrier: &Carrier) -> Option<Vec<DVec2>> {
     let area = |p: [DVec3; 3]| (p[1] - p[0]).cross(p[2] - p[0]);
     let mean: DVec3 = (0..carrier.triangles.len()).map(|t| area(carrier.corners(t as u32))).sum();
     let normal = mean.normalize_or_zero();
-    let seen = |t: usize| area(carrier.corners(t as u32)).dot(normal) > 0.0;
+    let seen = |t: usize| {
+        let area = area(carrier.corners(t as u32));
+        area.dot(normal) > LEAST_SEEN * area.length()
+    };
     if !(0..carrier.triangles.len()).all(seen) {
         return None;
     }
-    let (x, y) = normal.any_orthonormal_pair();
     // Right-handed with the normal towards the viewer.
-    let (x, y) = if x.cross(y).dot(normal) > 0.0 { (x, y) } else { (y, x) };
+    let [x, y] = tangents(normal);
     Some(carrier.points.iter().map(|p| DVec2::new(p.dot(x), p.dot(y))).collect())
 }
 

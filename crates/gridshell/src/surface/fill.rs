@@ -6,7 +6,7 @@
 //! from short boundary pieces.
 
 use super::model::Sampling;
-use super::sample::{LEAST_SHARE, piece_length};
+use super::sample::{LEAST_SHARE, ROUNDING, piece_length};
 use super::shape::Shape;
 use super::trim::{NEW, Node};
 use crate::math::trig;
@@ -27,6 +27,8 @@ const MOST: usize = 20_000;
 const LOOKS_TO_A_NODE: usize = 4_000;
 /// What a candidate takes besides, most of it for its point and normal, in such looks.
 const LOOKS_TO_A_CANDIDATE: usize = 50;
+/// Rows stand at least this share of the face's extent apart.
+const LEAST_STEP: f64 = 1e-5;
 /// Probes of the bending at most in each direction.
 const MOST_PROBES: f64 = 160.0;
 
@@ -51,7 +53,7 @@ pub(super) fn inside(
             let size =
                 sizes.at(0.5 * (a.uv + b.uv)).min(length).max(sampling.max_edge * LEAST_SHARE);
             // A piece longer than the spacing beside it must keep points off between its ends too.
-            let pieces = (length / size - 1e-9).ceil().max(1.0);
+            let pieces = (length / size - ROUNDING).ceil().max(1.0);
             for k in 0..pieces as usize {
                 let uv = a.uv.lerp(b.uv, k as f64 / pieces);
                 let at = a.xyz.lerp(b.xyz, k as f64 / pieces);
@@ -61,7 +63,8 @@ pub(super) fn inside(
     }
     let mut nodes = Vec::new();
     let [lo, hi] = bounds(loops);
-    let mut v = lo.y;
+    // A first row on the side itself would find it above or below by rounding.
+    let mut v = lo.y + LEAST_STEP * (hi.y - lo.y);
     for _ in 0..MOST {
         let mut step = f64::INFINITY;
         for [u0, u1] in intervals(loops, v) {
@@ -88,7 +91,7 @@ pub(super) fn inside(
                     .max(1e-9 * (hi.x - lo.x));
             }
         }
-        v += step.min((hi.y - lo.y) / 16.0).max(1e-5 * (hi.y - lo.y));
+        v += step.min((hi.y - lo.y) / 16.0).max(LEAST_STEP * (hi.y - lo.y));
         if v >= hi.y {
             break;
         }
@@ -137,7 +140,8 @@ impl Sizes {
             let line: Vec<DVec3> = line.collect();
             let length: f64 = line.windows(2).map(|w| w[0].distance(w[1])).sum();
             let spans = shape.lattice(k).len() as f64;
-            (2.0 * length / sampling.max_edge).max(spans).clamp(8.0, MOST_PROBES) as usize + 1
+            let probes = 2.0 * length / sampling.max_edge * (1.0 + ROUNDING);
+            probes.max(spans).clamp(8.0, MOST_PROBES) as usize + 1
         });
         let step = (hi - lo) / DVec2::new((count[0] - 1) as f64, (count[1] - 1) as f64);
         let place = |i: usize, j: usize| lo + step * DVec2::new(i as f64, j as f64);
@@ -168,14 +172,15 @@ impl Sizes {
         Sizes { origin: lo, step, count, spacing }
     }
 
-    /// The smallest spacing at the corners of the probes' cell that holds `uv`.
+    /// The smallest spacing at the corners of the probes' cell that holds `uv`, or of both cells that meet there.
     fn at(&self, uv: DVec2) -> f64 {
-        let cell = [0, 1].map(|k| {
-            let c = (uv[k] - self.origin[k]) / self.step[k];
-            (c.max(0.0) as usize).min(self.count[k] - 2)
+        let [columns, rows] = [0, 1].map(|k| {
+            let at = (uv[k] - self.origin[k]) / self.step[k];
+            let cell = |at: f64| (at.max(0.0) as usize).min(self.count[k] - 2);
+            cell(at - ROUNDING)..=cell(at + ROUNDING) + 1
         });
-        let at = |i: usize, j: usize| self.spacing[(cell[0] + i) * self.count[1] + cell[1] + j];
-        at(0, 0).min(at(0, 1)).min(at(1, 0)).min(at(1, 1))
+        let row = |i: usize| rows.clone().map(move |j| self.spacing[i * self.count[1] + j]);
+        columns.flat_map(row).fold(f64::INFINITY, f64::min)
     }
 }
 

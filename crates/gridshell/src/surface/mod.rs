@@ -28,6 +28,7 @@ pub mod model;
 mod motion;
 pub mod nurbs;
 pub mod offset;
+mod order;
 mod orient;
 pub mod parts;
 mod plan;

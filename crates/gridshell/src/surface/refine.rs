@@ -15,12 +15,12 @@ use glam::{DVec2, DVec3};
 /// Rounds of flips and splits; each halves what is too long.
 const MAX_ROUNDS: usize = 12;
 /// Two angles that face each other sum to more than half a turn when their cotangents sum to less than
-/// this; a little below 0 so that squares do not flip for ever.
-const COTANGENT_SUM: f64 = -1e-9;
+/// this; a little below 0 so that the diagonals of squares stay as they are, however their corners were rounded.
+const COTANGENT_SUM: f64 = -1e-6;
 /// The middle of an edge may lie this share of its length beside the edge, within the patch.
 const BESIDE: f64 = 0.15;
 /// An edge counts as too long from this share above the bound.
-const TOLERANCE: f64 = 1e-9;
+const TOLERANCE: f64 = 1e-6;
 
 /// The triangulation of one face while it is worked on.
 pub(super) struct Web<'a> {

@@ -15,6 +15,10 @@ const MOST_PIECES: f64 = 1e6;
 /// An edge that turns by more than this, radians, has at least two pieces.
 const TURNS: f64 = 0.2;
 
+/// Lengths that differ by this share are the same one, rounded differently: files hold nine digits and more. What
+/// only just needs splitting, one piece more or one more probe, so does not depend on how a file was written.
+pub(super) const ROUNDING: f64 = 1e-6;
+
 /// Piece length that keeps both bounds where the curvature is `bend` (1/m): a circle's chord of length h
 /// has sagitta h^2 bend / 8.
 pub(super) fn piece_length(sampling: &Sampling, bend: f64) -> f64 {
@@ -71,23 +75,25 @@ fn stretch(curve: &Curve, range: [f64; 2], sampling: &Sampling, least: usize) ->
         Curve::Nurbs(c) => (c.points.len() - c.degree) * (c.degree + 1),
         Curve::OnShape(..) | Curve::UvLine { .. } | Curve::Guide { .. } => 16,
     };
-    let probes =
-        (8.0 * rough / sampling.max_edge).max(4.0 * spans as f64).clamp(32.0, MAX_PROBES) as usize;
-    // Pieces wanted up to each probe: length over the local piece length.
+    let probes = 8.0 * rough / sampling.max_edge * (1.0 + ROUNDING);
+    let probes = probes.max(4.0 * spans as f64).clamp(32.0, MAX_PROBES) as usize;
+    let jets: Vec<_> = (0..=probes).map(|i| curve.jet(at(i as f64 / probes as f64))).collect();
+    let steps: Vec<(f64, f64)> = jets
+        .windows(2)
+        .map(|w| (w[0][0].distance(w[1][0]), trig::angle(w[0][1], w[1][1])))
+        .collect();
+    let turning: f64 = steps.iter().map(|s| s.1).sum();
+    let bend = |i: usize| {
+        steps.get(i).map_or(0.0, |&(length, turn)| if length > 0.0 { turn / length } else { 0.0 })
+    };
+    // Pieces wanted up to each probe: length over the local piece length. Bends seen just before and behind count too,
+    // so that a piece cannot begin or end right beside one, whichever way the curve runs.
     let mut wanted = vec![0.0];
-    let (mut total, mut turning, mut bent) = (0.0, 0.0, 0.0);
-    let mut last = curve.jet(range[0]);
-    for i in 1..=probes {
-        let next = curve.jet(at(i as f64 / probes as f64));
-        let length = last[0].distance(next[0]);
-        let turn = trig::angle(last[1], next[1]);
-        turning += turn;
-        // Bends seen at the last probe still count, so that a piece cannot begin just before one.
-        let bend = if length > 0.0 { turn / length } else { 0.0 };
-        total += length / piece_length(sampling, bend.max(bent));
-        bent = bend;
+    let mut total = 0.0;
+    for (i, &(length, _)) in steps.iter().enumerate() {
+        let sharpest = bend(i).max(bend(i.wrapping_sub(1))).max(bend(i + 1));
+        total += length / piece_length(sampling, sharpest);
         wanted.push(total);
-        last = next;
     }
     if total == 0.0 {
         return Some(vec![range[1]]);
@@ -96,8 +102,7 @@ fn stretch(curve: &Curve, range: [f64; 2], sampling: &Sampling, least: usize) ->
     if total > MOST_PIECES {
         return None;
     }
-    // A piece that only just needs splitting by rounding does not.
-    let pieces = ((total - 1e-9).ceil() as usize).max(least);
+    let pieces = ((total - ROUNDING).ceil() as usize).max(least);
     let mut result = Vec::with_capacity(pieces);
     let mut k = 0;
     for i in 1..pieces {
@@ -134,6 +139,21 @@ mod tests {
 
     fn sampling(max_edge: f64, chord_error: f64) -> Sampling {
         Sampling { max_edge, chord_error, corner_angle: 0.5 }
+    }
+
+    #[test]
+    fn an_edge_drawn_the_other_way_round_has_the_same_points() {
+        // IGES files of a roof ran their holes backwards, and got other carriers: bends counted once passed only.
+        let points: Vec<DVec3> = [(0., 0.), (1., 3.), (2., -1.), (6., 0.), (7., 0.)]
+            .map(|(x, y)| DVec3::new(x, y, 0.0))
+            .into();
+        let knots = vec![0., 0., 0., 0., 0.5, 1., 1., 1., 1.];
+        let back: Vec<DVec3> = points.iter().rev().copied().collect();
+        let there = edge(3, knots.clone(), points, vec![], [0, 1]);
+        let back = edge(3, knots, back, vec![], [0, 1]);
+        let [a, b] = [there, back].map(|e| parameters(&e, &sampling(0.5, 1e-3)).unwrap());
+        assert_eq!(a.len(), b.len());
+        assert!(a.iter().zip(b.iter().rev()).all(|(s, t)| (s + t - 1.0).abs() < 1e-12));
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::shape::Shape;
 use super::stretch::{self, Stretch};
 use super::track::{Track, Tracks};
 use super::trim::{Edges, NEW, Node, Polyline, Tracer, Trim};
-use super::{Carrier, Surface, area, chain, fill, sample, seam, weave};
+use super::{Surface, area, chain, fill, order, sample, seam, weave};
 use crate::error::{Error, Result};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -90,12 +90,12 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
             uv[k].swap(1, 2);
         }
     }
-    let kept = compact(&mut points, &mut triangles);
     if triangles.is_empty() {
         return Err(Error::Surface(format!("{}: there is no face with an area", brep.name)));
     }
-    let carrier = Carrier::new(points, triangles, patch, uv);
-    let tracks = tracks(&polylines, &kept);
+    let order = order::of(&points, &triangles);
+    let carrier = order.carrier(&points, &triangles, &patch, &uv);
+    let tracks = tracks(&polylines, &order.points);
     let curve_of = |a: u32, b: u32| tracks.curve_of(a, b);
     let mut loops = chain::boundary_loops(&carrier, PI, curve_of);
     for l in &mut loops {
@@ -267,32 +267,12 @@ fn polygon_area(loops: &[Vec<Node>], scale: DVec2) -> f64 {
     loops.iter().map(one).sum()
 }
 
-/// Drop points that no triangle uses; the new number of each, or `u32::MAX`.
-fn compact(points: &mut Vec<DVec3>, triangles: &mut [[u32; 3]]) -> Vec<u32> {
-    let mut kept = vec![u32::MAX; points.len()];
-    for &v in triangles.iter().flatten() {
-        kept[v as usize] = 0;
-    }
-    for (next, k) in kept.iter_mut().filter(|k| **k == 0).enumerate() {
-        *k = next as u32;
-    }
-    let mut i = 0;
-    points.retain(|_| {
-        i += 1;
-        kept[i - 1] != u32::MAX
-    });
-    for v in triangles.iter_mut().flatten() {
-        *v = kept[*v as usize];
-    }
-    kept
-}
-
 /// All carrier edges that lie on model edges.
-fn tracks(polylines: &[Polyline], kept: &[u32]) -> Tracks {
+fn tracks(polylines: &[Polyline], number: &[u32]) -> Tracks {
     let mut tracks = Tracks::new();
     for (e, line) in polylines.iter().enumerate() {
         for k in 1..line.t.len() {
-            let [a, b] = [k - 1, k].map(|i| kept[line.vertices[i] as usize]);
+            let [a, b] = [k - 1, k].map(|i| number[line.vertices[i] as usize]);
             tracks.lay(a, b, Track::of_curve(e as u32, [line.t[k - 1], line.t[k]]));
         }
     }

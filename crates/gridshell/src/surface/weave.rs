@@ -3,8 +3,13 @@
 use super::stretch::Stretch;
 use super::trim::Node;
 use crate::math::delaunay;
+use glam::DVec2;
 
 pub(super) use crate::math::delaunay::Rim;
+
+/// The plane leans by this share: rows of squares, which patches are filled with, get their shorter diagonals then,
+/// and not those that rounding prefers.
+const LEAN: f64 = 1e-3;
 
 /// Triangulate the inside of `rims` over `nodes`, as [`delaunay::triangles`], in the plane of `stretch`.
 ///
@@ -15,7 +20,8 @@ pub(super) fn triangles(
     rims: &[Rim],
     stretch: &Stretch,
 ) -> Result<Vec<[u32; 3]>, usize> {
-    let points: Vec<_> = nodes.iter().map(|n| stretch.place(n.uv)).collect();
+    let leaning = |p: DVec2| DVec2::new(p.x + LEAN * p.y, p.y);
+    let points: Vec<_> = nodes.iter().map(|n| leaning(stretch.place(n.uv))).collect();
     delaunay::triangles(&points, rims)
 }
 
@@ -24,7 +30,6 @@ mod tests {
     use super::super::shape::Shape;
     use super::super::trim::NEW;
     use super::*;
-    use glam::DVec2;
 
     fn flat() -> Stretch {
         Stretch::new(&Shape::Height(|_, _| [0.0; 3]), &[], DVec2::ZERO, DVec2::splat(4.0), 1.0)

@@ -1,8 +1,9 @@
-//! One surface as programs write it: in every format and unit the same figures.
+//! One surface as programs write it: in every format and unit the same figures, whatever the search does with the last
+//! digits in which files differ.
 
 use crate::promise::{kept, recipe};
 use gridshell::io::{self, Opening};
-use gridshell::recipe::{Effort, Recipe};
+use gridshell::recipe::Recipe;
 use std::path::Path;
 
 /// Share by which figures may differ.
@@ -19,7 +20,7 @@ fn figures(file: &str, recipe: &Recipe) -> [f64; 6] {
 }
 
 fn check(files: &[&str]) {
-    let recipe = Recipe { effort: Effort::Draft, ..recipe(0.6) };
+    let recipe = Recipe { candidates: Some(4), ..recipe(0.6) };
     let first = figures(files[0], &recipe);
     for file in &files[1..] {
         let other = figures(file, &recipe);

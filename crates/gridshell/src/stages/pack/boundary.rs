@@ -2,6 +2,9 @@
 
 use crate::surface::{Chain, ChainPoint, Ruler, Surface};
 
+/// Lengths of one piece differ by less than this share from file to file: half a member more is always one more.
+const ROUNDING: f64 = 1e-6;
+
 /// A piece of a loop between two corners (or the whole loop), or a whole feature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
@@ -80,7 +83,7 @@ pub fn place_on_features(surface: &Surface, pieces: &[Piece], counts: &[usize]) 
 
 /// Number of members on a piece at this edge length.
 pub fn member_count(piece: &Piece, edge_length: f64) -> usize {
-    ((piece.length / edge_length).round() as usize).max(piece.least)
+    ((piece.length / edge_length + ROUNDING).round() as usize).max(piece.least)
 }
 
 /// Bubbles at equal distances (over the scale wanted there): `counts[i]` members on piece i. A piece without corners starts at

@@ -4,6 +4,7 @@
 
 use super::state::State;
 use crate::grid::Place;
+use crate::math::frame::tangents;
 use glam::DVec3;
 use smallvec::SmallVec;
 
@@ -202,10 +203,7 @@ fn axes(state: &State, v: u32) -> SmallVec<[DVec3; 2]> {
         return SmallVec::new();
     }
     match &state.grid.places[v as usize] {
-        Place::Interior(p) => {
-            let (s, t) = state.surface.carrier.normal(p).any_orthonormal_pair();
-            SmallVec::from_buf([s, t])
-        }
+        Place::Interior(p) => SmallVec::from_buf(tangents(state.surface.carrier.normal(p))),
         Place::Boundary(c) => {
             let chain = &state.surface.loops[c.chain as usize];
             SmallVec::from_slice(&[chain.tangent(&state.surface.carrier, c.s)])

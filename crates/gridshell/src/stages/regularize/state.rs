@@ -221,13 +221,21 @@ impl<'a> State<'a> {
     }
 
     fn middle_on_surface(&self, a: u32, b: u32) -> Place {
-        // Not from a feature: the place of a node there is on its left side, which may be the wrong one.
-        let on_feature =
-            |v: u32| matches!(self.grid.places[v as usize], Place::Feature(_) | Place::Fixed(_));
-        let (a, b) = if on_feature(a) && !on_feature(b) { (b, a) } else { (a, b) };
-        let start = self.grid.places[a as usize].surface_point(self.surface);
-        let half = (self.grid.xyz[b as usize] - self.grid.xyz[a as usize]) * 0.5;
-        Place::Interior(self.surface.carrier.trace(&start, half))
+        let (mesh, xyz) = (&self.grid.mesh, &self.grid.xyz);
+        // A trace from the boundary, across a bay of it or along a straight side, may be out at once; and the place of
+        // a node on a feature is on its left side, which may be the wrong one.
+        let inside = |v: &u32| matches!(self.grid.places[*v as usize], Place::Interior(_));
+        let near = [Some(a), Some(b), mesh.left(a, b), mesh.right(a, b)];
+        let from = near.into_iter().flatten().find(inside).unwrap_or(a) as usize;
+        let start = self.grid.places[from].surface_point(self.surface);
+        let middle = (xyz[a as usize] + xyz[b as usize]) * 0.5;
+        let carrier = &self.surface.carrier;
+        let end = carrier.trace(&start, middle - xyz[from]);
+        if !carrier.is_at_boundary(&end) {
+            return Place::Interior(end);
+        }
+        // On the boundary itself the next one would be at one place with this.
+        Place::Interior(carrier.trace(&start, (carrier.xyz(&end) - xyz[from]) * 0.5))
     }
 
     fn middle_on_loop(&self, a: u32, b: u32) -> Place {
@@ -413,7 +421,7 @@ mod tests {
     use super::*;
     use crate::bubbles::Bubbles;
     use crate::stages::{pack, triangulate};
-    use crate::surface::{Fixtures, Sampling, builtin};
+    use crate::surface::{Fixtures, PolygonMesh, Sampling, builtin};
 
     const LENGTH: f64 = 0.7;
 
@@ -470,6 +478,30 @@ mod tests {
         assert!(ends[0].distance(start) < 1e-12 && ends[1].distance(end) < 1e-12);
         let anchor = DVec3::new(0.0, -2.0, 0.0);
         assert!(grid.mesh.vertices().any(|v| grid.xyz[v as usize].distance(anchor) < 1e-12));
+    }
+
+    #[test]
+    fn a_member_across_a_bay_is_split_away_from_its_ends() {
+        // A trace from the boundary out of the surface went nowhere: two nodes at one place, whose angles, and all that a
+        // search made of them, were rounding. Files of one roof got different grids by that.
+        //        3
+        //      / 4 \       the chord from 0 to 2 leaves the surface below 1
+        //    / 1     \
+        //   0          2
+        let points = [(-3.0, 0.0), (-1.0, 1.0), (3.0, 0.0), (0.0, 4.0), (0.0, 2.5)];
+        let points: Vec<DVec3> = points.map(|(x, y)| DVec3::new(x, y, 0.0)).into();
+        let faces = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]].map(|f| f.to_vec()).into();
+        let mesh = PolygonMesh { points: points.clone(), faces, ..PolygonMesh::default() };
+        let sampling = Sampling { max_edge: 9.0, chord_error: 1e-3, corner_angle: 3.0 };
+        let surface = mesh.surface(&sampling).expect("a surface");
+        let panels = [[0, 1, 2], [0, 2, 4], [2, 3, 4], [3, 0, 4]];
+        let grid = Grid::from_panels(points, &panels, &surface).expect("a grid");
+        for (a, b) in [(0, 2), (2, 0)] {
+            let mut state = State::new(&surface, grid.clone(), LENGTH, 0.9);
+            let m = state.split(a, b).expect("an inner member");
+            let at = state.grid.xyz[m as usize];
+            assert!(at.distance(DVec3::new(0.0, 1.625, 0.0)) < 1e-9, "{at}");
+        }
     }
 
     #[test]
