@@ -311,7 +311,7 @@ async fn two_hundred_edits_and_many_reconnections_lose_nothing() {
     hear(&mut tab, &["idle"]).await;
     let run = generate(&up, &mut tab).await;
     let mut rng = fastrand::Rng::with_seed(7);
-    let (mut done, mut undone) = (0_usize, 0_usize);
+    let (mut done, mut undone, mut made) = (0_usize, 0_usize, 0);
     for k in 0..200 {
         if rng.u8(..10) == 0 {
             // Now and then without a word of farewell.
@@ -340,12 +340,12 @@ async fn two_hundred_edits_and_many_reconnections_lose_nothing() {
         match wish["kind"].as_str().unwrap() {
             "undo" => (done, undone) = (done - 1, undone + 1),
             "redo" => (done, undone) = (done + 1, undone - 1),
-            _ => (done, undone) = (done + 1, 0),
+            _ => (done, undone, made) = (done + 1, 0, made + 1),
         }
         let told = [&answer["done"], &answer["undone"]].map(|list| list.as_array().unwrap().len());
         assert_eq!(told, [done, undone], "after wish {k}: {wish}");
     }
-    assert!(done > 5, "hardly any edit was possible: {done}");
+    assert!(made > 20, "hardly any edit was possible: {made}");
     // Another tab is told the same, and the export holds as many nodes as are told.
     let mut another = up.tab().await;
     hear(&mut another, &["idle"]).await;

@@ -56,8 +56,12 @@ fn open(row: &Row) -> Option<Result<(Model, Surface), String>> {
         Ok(model) => model,
     };
     let max_edge = EDGE * model.size();
+    Some(sampled(&model, max_edge).map(|s| (model, s)))
+}
+
+fn sampled(model: &Model, max_edge: f64) -> Result<Surface, String> {
     let sampling = Sampling { max_edge, chord_error: 0.004 * max_edge, corner_angle: 0.5 };
-    Some(model.surface(&sampling).map(|s| (model, s)).map_err(|e| e.to_string()))
+    model.surface(&sampling).map_err(|e| e.to_string())
 }
 
 /// What is not as the table says.
@@ -112,13 +116,16 @@ fn every_file_opens_with_the_area_loops_and_corners_of_its_table() {
     assert!(read >= least, "only {read} files are read");
 }
 
-/// The surfaces of all files whose names begin so.
+/// The surfaces of all files whose names begin so, sampled equally.
 fn alike(start: &str) -> Vec<Surface> {
-    rows()
+    let models: Vec<Model> = rows()
         .iter()
         .filter(|r| r.path.file_name().unwrap().to_string_lossy().starts_with(start))
-        .filter_map(|r| open(r).map(|s| s.unwrap().1))
-        .collect()
+        .filter_map(|r| open(r).map(|s| s.unwrap().0))
+        .collect();
+    // A size is looked up at a few points of each edge: files that cut edges elsewhere differ in its fourth digit.
+    let max_edge = EDGE * models[0].size();
+    models.iter().map(|m| sampled(m, max_edge).unwrap()).collect()
 }
 
 #[test]
@@ -133,7 +140,7 @@ fn the_same_surface_has_the_same_carrier_in_every_format_unit_and_schema() {
             let length = |s: &Surface| s.loops.iter().map(Chain::length).sum::<f64>();
             assert!((length(surface) / length(first) - 1.0).abs() < 1e-6);
             let (a, b) = (&surface.carrier, &first.carrier);
-            assert_eq!(a.triangles, b.triangles, "{}", surface.name);
+            assert!(a.triangles == b.triangles, "{}: other triangles", surface.name);
             let apart = a.points.iter().zip(&b.points).map(|(p, q)| p.distance(*q));
             let farthest = apart.fold(0.0, f64::max);
             assert!(farthest < 1e-6, "{}: {farthest} m apart", surface.name);

@@ -22,9 +22,6 @@ const LEAST_STEPS: usize = 300;
 /// Fewest trials of the search per irregular node.
 const LEAST_TRIALS: usize = 300;
 
-/// Fewest trials of the search in all.
-const LEAST_MOST_TRIALS: usize = 60_000;
-
 /// Carrier edges over l0: fine enough for nodes to walk smoothly and boundaries to be followed.
 const CARRIER_EDGE: f64 = 0.5;
 /// The same in large grids, whose members are short against all that bends: what bends more sharply is sampled
@@ -62,8 +59,7 @@ pub fn budgeted(recipe: &Recipe, nodes: f64) -> Recipe {
     regularize.trials = cut(regularize.trials, (share * share).min(1.0), LEAST_TRIALS);
     // All trials of one grid may take twice as long as all trials of the smallest full one, and then as the
     // border grows.
-    let most = cut(regularize.most_trials, share.min(1.0), LEAST_MOST_TRIALS) as f64;
-    let most = most * (nodes / (20.0 * FULL)).sqrt().max(1.0);
+    let most = regularize.most_trials as f64 * (nodes / (20.0 * FULL)).sqrt().max(1.0);
     regularize.most_trials = most as usize;
     match recipe.effort {
         Effort::Draft => draft(&mut recipe),

@@ -11,6 +11,8 @@ use std::collections::{HashMap, HashSet};
 
 /// More triangles than this are refused: at about 300 bytes each they would fill a small machine.
 pub(super) const MAX_TRIANGLES: f64 = 4e6;
+/// Edges are never halved below this share of the largest coordinate, where their middles would be their ends.
+const FINEST: f64 = 1e-12;
 
 impl PolygonMesh {
     /// The mesh as a surface, with no triangle edge longer than the sampling's longest.
@@ -67,6 +69,14 @@ impl PolygonMesh {
     /// Halving goes on by powers of two, so a triangle yields about as many as its edges hold `max_edge`,
     /// squared.
     fn check_size(&self, points: &[DVec3], triangles: &[[u32; 3]], max_edge: f64) -> Result<()> {
+        let farthest = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        if max_edge <= FINEST * farthest {
+            return Err(Error::Surface(format!(
+                "{}: coordinates of {farthest:.3} m cannot tell points apart that are {max_edge:.1e} m from one another; \
+                 choose a larger edge length, or check the unit of the mesh",
+                self.name
+            )));
+        }
         let expected: f64 = triangles
             .iter()
             .map(|t| {
@@ -198,6 +208,15 @@ mod tests {
         let edges = uses.keys().filter(|&&(a, b)| a < b || !uses.contains_key(&(b, a))).count();
         // Euler: V + F = E + 1 on a disc.
         assert_eq!(fine.carrier.points.len() + fine.carrier.triangles.len(), edges + 1);
+    }
+
+    #[test]
+    fn a_mesh_no_larger_than_the_rounding_of_its_place_is_refused() {
+        // A damaged GLB file's: the middle of an edge was one of its ends, and halving went on until the memory was full.
+        let here = DVec3::new(1.0, 2.0, 3.0).to_array();
+        let mesh = sheet(&[here, [1.0, 2.0, 3.0 + 4e-16], [1.0 + 2e-16, 2.0, 3.0]], &[&[0, 1, 2]]);
+        let message = mesh.surface(&sampling(4e-17)).err().expect("an error").to_string();
+        assert!(message.contains("cannot tell points apart"), "{message}");
     }
 
     #[test]

@@ -243,13 +243,10 @@ impl<'a, 'b> Polish<'a, 'b> {
             let touched = self.state.touched();
             let near = self.state.region(&touched, 1);
             let state = &*self.state;
-            let best = near
-                .iter()
-                .flat_map(|&v| state.flips_at(v).map(move |(change, w)| (change, v, w)))
-                .min_by(|x, y| x.0.total_cmp(&y.0));
-            match best {
-                Some((gain, v, w)) if gain < -1e-9 => {
-                    plan.make(self.state, Operation::Flip, v, w)?;
+            let flips = near.iter().flat_map(|&v| state.flips_for(v));
+            match flips.min_by(|x, y| x.0.total_cmp(&y.0)) {
+                Some((change, a, b)) if change < -1e-9 => {
+                    plan.make(self.state, Operation::Flip, a, b)?;
                 }
                 _ => break,
             }
@@ -307,12 +304,24 @@ const MOST_FLIPS: usize = 8;
 impl Plan {
     /// Make an operation and note its change of R.
     fn make(&mut self, state: &mut State, operation: Operation, a: u32, b: u32) -> Option<()> {
-        let mut region = state.region(&[a, b], 1);
-        let before = residual(state, &region);
-        region.push(operation.apply(state, a, b).ok()?);
-        state.refresh(&region);
-        let region = state.region(&region, 0);
-        self.change += residual(state, &region) - before;
+        // Only these get other edges, or other angles at the border.
+        let mut changed = match operation {
+            Operation::Collapse => state.region(&[a, b], 1),
+            Operation::Flip | Operation::Split => {
+                let mesh = &state.grid.mesh;
+                [Some(a), Some(b), mesh.left(a, b), mesh.right(a, b)]
+                    .into_iter()
+                    .flatten()
+                    .collect()
+            }
+        };
+        let before = residual(state, &changed);
+        let middle = operation.apply(state, a, b).ok()?;
+        if !changed.contains(&middle) {
+            changed.push(middle);
+        }
+        state.refresh(&changed);
+        self.change += residual(state, &changed) - before;
         self.steps.push((operation, a, b));
         Some(())
     }
@@ -330,6 +339,7 @@ impl Plan {
     }
 }
 
+/// Part of R (Eq. 14) of these; nothing of removed ones.
 fn residual(state: &State, region: &[u32]) -> f64 {
     let one = |&v: &u32| state.gamma(v) * f64::from(state.deviation[v as usize].pow(2));
     region.iter().map(one).sum()

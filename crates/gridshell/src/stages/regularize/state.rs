@@ -120,26 +120,17 @@ impl<'a> State<'a> {
     /// Change of R by flipping the edge (Eq. 15 to 17); None on the boundary.
     pub fn flip_change(&self, a: u32, b: u32) -> Option<f64> {
         let (c, d) = (self.grid.mesh.left(a, b)?, self.grid.mesh.right(a, b)?);
-        Some(self.change_of_flip([a, b], [c, d]))
-    }
-
-    fn change_of_flip(&self, [a, b]: [u32; 2], [c, d]: [u32; 2]) -> f64 {
         let lose = self.residual_change(a, -1) + self.residual_change(b, -1);
-        lose + self.residual_change(c, 1) + self.residual_change(d, 1)
+        Some(lose + self.residual_change(c, 1) + self.residual_change(d, 1))
     }
 
-    /// The edges from `v` to vertices of higher id that can be flipped, each with the change of R by that.
-    pub fn flips_at(&self, v: u32) -> impl Iterator<Item = (f64, u32)> + '_ {
-        let ring = self.grid.mesh.ring(v);
-        let inside = !self.grid.mesh.is_boundary(v);
-        (0..ring.len()).filter_map(move |i| {
-            let (w, last) = (ring[i], ring.len() - 1);
-            let flippable = w > v && (inside || (i > 0 && i < last));
-            let apexes = [
-                if i < last { ring[i + 1] } else { ring[0] },
-                ring[if i > 0 { i - 1 } else { last }],
-            ];
-            flippable.then(|| (self.change_of_flip([v, w], apexes), w))
+    /// The flips that may lower R because of `v`, of its own edges where they are too many and of those opposite to it
+    /// where they are too few, each with the change of R.
+    pub fn flips_for(&self, v: u32) -> impl Iterator<Item = (f64, u32, u32)> + '_ {
+        let off = self.deviation[v as usize];
+        self.grid.mesh.fan(v).filter(move |_| off != 0).filter_map(move |(a, b)| {
+            let (a, b) = if off > 0 { (v, a) } else { (a, b) };
+            Some((self.flip_change(a, b)?, a, b))
         })
     }
 
