@@ -41,7 +41,7 @@ fn every_seed_is_a_surface() {
 }
 
 #[test]
-fn no_find_asks_for_more_triangles_than_a_sane_file() {
+fn no_find_takes_more_triangles_than_a_sane_file_unless_it_is_refused() {
     let files = files("finds");
     assert!(files.len() >= 2);
     for file in files {
@@ -49,8 +49,11 @@ fn no_find_asks_for_more_triangles_than_a_sane_file() {
         let size = model.size();
         assert!(size < 1e9, "{}: {size:e} m large", file.display());
         let fine = Sampling { max_edge: size / 80.0, chord_error: 1e-4 * size, corner_angle: 0.6 };
-        let surface = model.surface(&fine).expect("a coarse carrier can be had");
-        let triangles = surface.carrier.triangles.len();
+        let triangles = match model.surface(&fine) {
+            Ok(surface) => surface.carrier.triangles.len(),
+            Err(gridshell::Error::Surface(_)) => continue,
+            Err(e) => panic!("{}: {e}", file.display()),
+        };
         assert!(triangles < 200_000, "{}: {triangles} triangles", file.display());
     }
 }
