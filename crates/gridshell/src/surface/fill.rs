@@ -23,8 +23,8 @@ const CANDIDATES: f64 = 5.0;
 const GROWTH: f64 = 0.5;
 /// Candidate rows and candidates in a row at most: a guard for degenerate patches.
 const MOST: usize = 20_000;
-/// Points looked at, for each node that a face may have, before it counts as crowded.
-const LOOKS_TO_A_NODE: usize = 4_000;
+/// Points looked at, for each node that a face may have, before it counts as crowded; a plane one takes 700.
+pub(super) const LOOKS_TO_A_NODE: usize = 1_500;
 /// What a candidate takes besides, most of it for its point and normal, in such looks.
 const LOOKS_TO_A_CANDIDATE: usize = 50;
 /// Rows stand at least this share of the face's extent apart.
@@ -33,12 +33,13 @@ const LEAST_STEP: f64 = 1e-5;
 const MOST_PROBES: f64 = 160.0;
 
 /// Nodes for the inside of the polygons `loops`. None where there would be more than `most`, or where they crowd
-/// so that finding them takes long.
+/// so that finding them takes more than so many `looks` at points.
 pub(super) fn inside(
     shape: &Shape,
     loops: &[Vec<Node>],
     sampling: &Sampling,
     most: usize,
+    looks: usize,
 ) -> Option<Vec<Node>> {
     let sizes = Sizes::new(shape, loops, sampling);
     let mut taken = Taken::new(sampling.max_edge);
@@ -83,7 +84,7 @@ pub(super) fn inside(
                     taken.push(jet.point, normal, size);
                     nodes.push(Node { uv, xyz: jet.point, vertex: NEW, free: None });
                 }
-                if nodes.len() > most || taken.looks > LOOKS_TO_A_NODE * most {
+                if nodes.len() > most || taken.looks > looks {
                     return None;
                 }
                 u += (wanted / (CANDIDATES * along.max(1e-300)))
