@@ -177,7 +177,7 @@ impl Carrier {
         p.normalized()
     }
 
-    /// Whether `p` is at the boundary: in a triangle beside it, and so near that rounding may say on which side.
+    /// Whether `p` is at the boundary: in a triangle beside it, nearer than a twentieth of the triangle's height.
     pub fn is_at_boundary(&self, p: &SurfacePoint) -> bool {
         let t = p.triangle as usize;
         (0..3).any(|k| self.neighbors[t][k] == NONE && p.bary[(k + 2) % 3] < AT_BOUNDARY)

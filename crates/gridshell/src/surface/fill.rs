@@ -23,7 +23,8 @@ const CANDIDATES: f64 = 5.0;
 const GROWTH: f64 = 0.5;
 /// Candidate rows and candidates in a row at most: a guard for degenerate patches.
 const MOST: usize = 20_000;
-/// Points looked at, for each node that a face may have, before it counts as crowded; a plane one takes 700.
+/// Points looked at, for each node that a face may have, before it counts as crowded: a plane face should take
+/// about 700 by its candidates and their neighbours (estimated, not measured).
 pub(super) const LOOKS_TO_A_NODE: usize = 1_500;
 /// What a candidate takes besides, most of it for its point and normal, in such looks.
 const LOOKS_TO_A_CANDIDATE: usize = 50;
