@@ -58,7 +58,7 @@ fn obj(path: &Path, text: &str) -> Result<(Vec<DVec3>, Vec<Vec<DVec3>>)> {
             }
             Some("l") => {
                 let guide: Result<Vec<DVec3>> = words
-                    .map(|word| Ok(points[scan::vertex(&line, word, points.len())? as usize]))
+                    .map(|word| Ok(points[scan::vertex(&line, word, [points.len(); 2])? as usize]))
                     .collect();
                 let guide = guide?;
                 if guide.len() < 2 {

@@ -2,8 +2,9 @@
 //! at hand tell no line numbers.
 
 use super::grid_file::GridFile;
+use super::scan::{self, Line};
 use super::soup::Soup;
-use super::{LengthUnit, file, scan, text};
+use super::{LengthUnit, file, text};
 use crate::error::Result;
 use glam::DVec3;
 use std::collections::HashSet;
@@ -25,21 +26,28 @@ pub(super) fn read(path: &Path) -> Result<Soup> {
         .find_map(LengthUnit::stated);
     let mut soup = Soup { unit, first: 1, ..Soup::default() };
     let (mut curved, mut dots, mut lines) = (0, 0, Vec::new());
+    // With the number of vertices above: those further down may be named as well.
+    let mut drawn: Vec<(Line, usize)> = Vec::new();
     for line in scan::lines(path, &joined) {
         let mut words = line.text.split_ascii_whitespace();
         match words.next() {
             Some("v") => soup.points.push(line.point(&mut words)?),
-            Some("f" | "fo") => {
-                let face = corners(&line, words, soup.points.len())?;
-                if face.len() < 3 {
-                    return Err(line.error("a face needs three corners or more"));
-                }
-                soup.faces.push(face);
-            }
-            Some("l") => lines.push(corners(&line, words, soup.points.len())?),
+            Some("f" | "fo" | "l") => drawn.push((line, soup.points.len())),
             Some("p") => dots += 1,
             Some("curv" | "curv2" | "surf") => curved += 1,
             _ => {}
+        }
+    }
+    for (line, above) in drawn {
+        let words = line.text.split_ascii_whitespace().skip(1);
+        let corner = |word| scan::vertex(&line, word, [above, soup.points.len()]);
+        let corners: Vec<u32> = words.map(corner).collect::<Result<_>>()?;
+        if line.text.starts_with('l') {
+            lines.push(corners);
+        } else if corners.len() < 3 {
+            return Err(line.error("a face needs three corners or more"));
+        } else {
+            soup.faces.push(corners);
         }
     }
     let stray = stray_lines(&soup.faces, &lines);
@@ -47,14 +55,6 @@ pub(super) fn read(path: &Path) -> Result<Soup> {
     soup.note_count(dots, "skipped", "points");
     soup.note_count(curved, "skipped", "curved elements: only faces are read from OBJ");
     Ok(soup)
-}
-
-fn corners<'a>(
-    line: &scan::Line,
-    words: impl Iterator<Item = &'a str>,
-    count: usize,
-) -> Result<Vec<u32>> {
-    words.map(|word| scan::vertex(line, word, count)).collect()
 }
 
 /// How many of these polylines leave the edges of the faces: those are no members of a grid.

@@ -45,7 +45,9 @@ impl<'a> Line<'a> {
             return Err(self.error(format!("{what} is missing")));
         };
         let hint = if word.contains(',') { ": write numbers with a point" } else { "" };
-        word.parse().map_err(|_| self.error(format!("`{}` is not {what}{hint}", clip(word))))
+        // Fortran writes the exponents of its longer numbers with D.
+        let parsed = word.parse().or_else(|_| word.replace(['d', 'D'], "e").parse());
+        parsed.map_err(|_: T::Err| self.error(format!("`{}` is not {what}{hint}", clip(word))))
     }
 
     /// Three coordinates from the next words.
@@ -60,14 +62,17 @@ impl<'a> Line<'a> {
 }
 
 /// Index of the vertex that a word of a face or line in an OBJ file means (`v`, `v/vt`, `v//vn` or `v/vt/vn`);
-/// counted from 1, or backwards from the latest with -1.
-pub(super) fn vertex(line: &Line, word: &str, count: usize) -> Result<u32> {
+/// counted from 1, or backwards from the latest above with -1. So many there are above, and in all.
+pub(super) fn vertex(line: &Line, word: &str, [above, all]: [usize; 2]) -> Result<u32> {
     let index: i64 = line.number(word.split('/').next(), "a vertex number")?;
     let from_zero =
-        if index < 0 { i64::try_from(count).unwrap_or(i64::MAX) + index } else { index - 1 };
+        if index < 0 { i64::try_from(above).unwrap_or(i64::MAX) + index } else { index - 1 };
     match usize::try_from(from_zero) {
-        Ok(v) if v < count => Ok(v as u32),
-        _ => Err(line.error(format!("vertex {index} is used, but only {count} are given above"))),
+        Ok(v) if v < all => Ok(v as u32),
+        _ if index < 0 => {
+            Err(line.error(format!("vertex {index} is used, but only {above} are given above")))
+        }
+        _ => Err(line.error(format!("vertex {index} is used, but only {all} are given"))),
     }
 }
 

@@ -71,6 +71,17 @@ fn obj_keeps_far_coordinates_and_understands_negative_indices() {
     assert_eq!(mesh.faces, vec![vec![0, 1, 2], vec![0, 2, 3], vec![1, 4, 5, 2]]);
 }
 
+/// Faces before the vertices they name, an exponent as Fortran writes it, and a relative number counted from its own line.
+#[test]
+fn obj_takes_vertices_in_any_place_and_exponents_of_fortran() {
+    let text = "f 1 2 3\nv 1.0D+01 0 0\nv 0 1d1 0\nf -1 -2 4\nv 0 0 0\nv 10 10 0\n";
+    let mesh = Scratch::new("late.obj", text).read().expect("a mesh");
+    assert_eq!(mesh.faces, vec![vec![0, 1, 2], vec![1, 0, 3]]);
+    assert_eq!(mesh.points[1], DVec3::new(0.0, 10.0, 0.0));
+    let error = Scratch::new("few.obj", "v 0 0 0\nf 1 2 3\n").read().unwrap_err().to_string();
+    assert!(error.contains("line 2") && error.contains("only 1 are given"), "{error}");
+}
+
 #[test]
 fn grids_read_back_exactly_from_every_format() {
     let mesh = Scratch::new("source.obj", FAR).read().expect("a mesh");
