@@ -7,8 +7,8 @@
 
 use crate::math::trig;
 use crate::mesh::Mesh;
-use glam::DVec3;
-use std::f64::consts::FRAC_PI_3;
+use glam::{DVec2, DVec3};
+use std::f64::consts::{FRAC_PI_3, TAU};
 
 /// The adjusted degree of a regular vertex.
 pub const REGULAR: i32 = 6;
@@ -30,7 +30,22 @@ pub fn virtual_degree(theta: f64) -> i32 {
 /// Sum of the panel angles at `v`, radians.
 pub fn boundary_angle(mesh: &Mesh, xyz: &[DVec3], v: u32) -> f64 {
     let at = xyz[v as usize];
-    mesh.fan(v).map(|(a, b)| trig::angle(xyz[a as usize] - at, xyz[b as usize] - at)).sum()
+    // A needle turned by each angle in turn, none over pi: one arc tangent in the end instead of one for each.
+    let (mut needle, mut turns) = (DVec2::X, 0);
+    for (a, b) in mesh.fan(v) {
+        let (a, b) = (xyz[a as usize] - at, xyz[b as usize] - at);
+        let angle = DVec2::new(a.dot(b), a.cross(b).length());
+        let turned = needle.rotate(angle.try_normalize().unwrap_or(DVec2::X));
+        turns += i32::from(past_half(needle) && !past_half(turned));
+        needle = turned;
+    }
+    let angle = trig::atan2(needle.y, needle.x);
+    TAU * f64::from(turns) + if past_half(needle) && angle < 0.0 { angle + TAU } else { angle }
+}
+
+/// Whether a direction is half a turn or more from x.
+fn past_half(needle: DVec2) -> bool {
+    needle.y < 0.0 || needle.y == 0.0 && needle.x < 0.0
 }
 
 /// The degree of `v`, with the virtual degree added on the boundary (Eq. 11).
@@ -94,6 +109,24 @@ mod tests {
             xyz.push(DVec3::new(a.cos(), a.sin(), 0.0));
         }
         (mesh, xyz)
+    }
+
+    /// Two panels without area at a node whose members lie in one line.
+    #[test]
+    fn straight_angles_add_up() {
+        let mesh = Mesh::from_triangles(4, &[[0, 1, 2], [0, 2, 3]]).expect("two panels");
+        let xyz = [0.0, 1.0, -1.0, 2.0].map(|x| DVec3::new(x, 0.0, 0.0));
+        assert_eq!(boundary_angle(&mesh, &xyz, 0), TAU);
+    }
+
+    /// A node where a wall turns back may have more than a full turn of panels.
+    #[test]
+    fn angles_add_up_beyond_a_full_turn() {
+        for theta in [1.0, 179.0, 180.0, 181.0, 359.0, 361.0, 540.0, 700.0, 721.0] {
+            let (mesh, xyz) = fan(7, theta);
+            let sum = boundary_angle(&mesh, &xyz, 0).to_degrees();
+            assert!((sum - theta).abs() < 1e-9, "{sum} for {theta}");
+        }
     }
 
     #[test]
