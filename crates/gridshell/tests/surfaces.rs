@@ -419,6 +419,39 @@ fn separate_pieces_are_all_kept() {
     assert_eq!((euler(&surface), surface.loops.len()), (2, 2));
 }
 
+/// A narrow lantern on a wide roof wants rows of nodes so close that a guard against damaged files took it for one.
+#[test]
+fn face_that_bends_in_one_place_only_is_no_damaged_one() {
+    let n = 16;
+    let spacing = 20.0 / (n - 1) as f64;
+    let point = |k: usize| {
+        let z = if k == n * (n / 2) + n / 2 { 3.0 } else { 0.0 };
+        DVec3::new((k / n) as f64 * spacing, (k % n) as f64 * spacing, z)
+    };
+    let inner = (1..n - 3).map(|k| k as f64);
+    let knots: Vec<f64> = [0.0; 4].into_iter().chain(inner).chain([(n - 3) as f64; 4]).collect();
+    let points = (0..n * n).map(point).collect();
+    let roof = NurbsSurface::new([3, 3], [knots.clone(), knots], [n, n], points, vec![]).unwrap();
+    let mut m = Maker::default();
+    m.face(roof, vec![], false);
+    let s = Sampling { max_edge: 1.0, chord_error: 4e-4, corner_angle: 0.5 };
+    let surface = tessellate(&m.0, &s).unwrap();
+    assert_eq!((euler(&surface), surface.loops.len()), (1, 1));
+    // The lantern is a product of two cubic bells: what their slopes add to the area of the roof.
+    let bell = |t: f64| match t.abs() {
+        a if a < 1.0 => [2.0 / 3.0 - a * a + a * a * a / 2.0, t * (1.5 * a - 2.0)],
+        a => [(2.0 - a).powi(3) / 6.0, -t.signum() * (2.0 - a).powi(2) / 2.0],
+    };
+    let middles = || (0..800).map(|k| bell((f64::from(k) + 0.5) / 200.0 - 2.0));
+    let slopes = middles().flat_map(|x| middles().map(move |y| (x[1] * y[0]).hypot(x[0] * y[1])));
+    let more: f64 = slopes.map(|slope| (3.0 / spacing * slope).hypot(1.0) - 1.0).sum();
+    let area = 400.0 + more * (spacing / 200.0).powi(2);
+    assert!((surface.area / area - 1.0).abs() < 1e-5, "{} {area}", surface.area);
+    let made: f64 =
+        (0..surface.carrier.triangles.len() as u32).map(|t| surface.carrier.triangle_area(t)).sum();
+    assert!((made / area - 1.0).abs() < 1e-4, "{made} {area}");
+}
+
 #[test]
 fn absurd_sampling_is_refused_at_once() {
     let mut m = Maker::default();

@@ -23,9 +23,11 @@ const CANDIDATES: f64 = 5.0;
 const GROWTH: f64 = 0.5;
 /// Candidate rows and candidates in a row at most: a guard for degenerate patches.
 const MOST: usize = 20_000;
-/// Points looked at, for each node that a face may have, before it counts as crowded: a plane face should take
-/// about 700 by its candidates and their neighbours (estimated, not measured).
-pub(super) const LOOKS_TO_A_NODE: usize = 1_500;
+/// Points looked at, before a face counts as crowded: so many in any face (two seconds), for bends that are much sharper
+/// in one place than in others, as at the tip of a vault or in waves; and so many for each node that it may have. Faces
+/// without fault took up to 240 million together, and even ones up to 570 for each such node.
+pub(super) const LOOKS: usize = 250_000_000;
+pub(super) const LOOKS_TO_A_NODE: usize = 600;
 /// What a candidate takes besides, most of it for its point and normal, in such looks.
 const LOOKS_TO_A_CANDIDATE: usize = 50;
 /// Rows stand at least this share of the face's extent apart.

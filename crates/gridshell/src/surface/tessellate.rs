@@ -191,12 +191,12 @@ fn piece(
         from += n;
     }
     let most = most_nodes(shape, [lo, hi], &loops, sampling);
-    let (mut eased, mut looks) = (*sampling, fill::LOOKS_TO_A_NODE * most);
+    let (mut eased, mut looks) = (*sampling, fill::LOOKS + fill::LOOKS_TO_A_NODE * most);
     let inside = (0..MOST_EASINGS).find_map(|_| {
         let inside = fill::inside(shape, &loops, &eased, most, looks);
         eased.chord_error *= EASED;
-        // All that follow take less time than the first did.
-        looks /= 4;
+        // Half the bends need half the rows of candidates or fewer; all that follow take no more time than the first did.
+        looks /= 2;
         inside
     });
     nodes.extend(inside.ok_or(
