@@ -40,7 +40,7 @@ pub fn boundary_angle(mesh: &Mesh, xyz: &[DVec3], v: u32) -> f64 {
         needle = turned;
     }
     let angle = trig::atan2(needle.y, needle.x);
-    TAU * f64::from(turns) + if past_half(needle) && angle < 0.0 { angle + TAU } else { angle }
+    TAU * f64::from(turns) + if angle < 0.0 { angle + TAU } else { angle }
 }
 
 /// Whether a direction is half a turn or more from x.

@@ -25,7 +25,7 @@ const GROWTH: f64 = 0.5;
 const MOST: usize = 20_000;
 /// Points looked at, before a face counts as crowded: so many in any face (two seconds), for bends that are much sharper
 /// in one place than in others, as at the tip of a vault or in waves; and so many for each node that it may have. Faces
-/// without fault took up to 240 million together, and even ones up to 570 for each such node.
+/// without fault were seen to take up to 240 million; large even ones should take 570 (estimated) for each such node.
 pub(super) const LOOKS: usize = 250_000_000;
 pub(super) const LOOKS_TO_A_NODE: usize = 600;
 /// What a candidate takes besides, most of it for its point and normal, in such looks.
