@@ -66,7 +66,7 @@ pub use ruler::Ruler;
 pub use sew::{Sewing, sew};
 pub use shape::Shape;
 pub use smooth::{Smooth, Smoothing};
-pub use source::{Object, Source, Unit};
+pub use source::{Loss, Object, Source, Unit};
 pub use tessellate::tessellate;
 
 pub(crate) use seam::bound;

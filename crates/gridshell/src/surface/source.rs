@@ -1,6 +1,7 @@
 //! Where a model comes from: what a file says of itself.
 
 use serde::Serialize;
+use std::fmt;
 
 /// What a file says of itself. What it does not say is empty.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -15,6 +16,40 @@ pub struct Source {
     pub unit: Option<Unit>,
     /// Objects of the file, in its order; empty where the format knows none.
     pub objects: Vec<Object>,
+    /// What of the file's geometry is not in the model; points, curves and what was not asked for do not count.
+    pub losses: Vec<Loss>,
+}
+
+/// Geometry of a file that could not be taken into the model.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Loss {
+    /// What it is, as the user knows it, with its name, layer and entity: `brep "North" on layer "Roof"`, `face #12`.
+    pub what: String,
+    /// Why it was left out, and how to get it all the same.
+    pub why: String,
+    /// Number of its faces; 0 where it is not known.
+    pub faces: usize,
+    /// Its area in square metres; None where it is not known.
+    pub area: Option<f64>,
+    /// Whether it is an object of its own in the file, rather than a few faces of one.
+    pub whole: bool,
+}
+
+impl fmt::Display for Loss {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "left out {}", self.what)?;
+        let faces = match self.faces {
+            0 => None,
+            1 => Some("1 face".to_owned()),
+            n => Some(format!("{n} faces")),
+        };
+        let area = self.area.map(|a| format!("{a:.3} m2"));
+        let size: Vec<String> = faces.into_iter().chain(area).collect();
+        if !size.is_empty() {
+            write!(f, " ({})", size.join(", "))?;
+        }
+        write!(f, ": {}", self.why)
+    }
 }
 
 /// A unit of length.
