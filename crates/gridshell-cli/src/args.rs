@@ -82,6 +82,10 @@ pub struct Generate {
     /// several pieces.
     #[arg(long, value_name = "N|all")]
     pub part: Option<String>,
+    /// Lay a grid although a part of the file that counts could not be read: an object, or more than a hundredth of its
+    /// area. What is missing is told.
+    #[arg(long)]
+    pub accept_losses: bool,
     /// Wanted length of the members, metres.
     #[arg(short = 'l', long, value_name = "L", value_parser = positive, conflicts_with = "nodes", allow_negative_numbers = true)]
     pub edge_length: Option<f64>,

@@ -47,10 +47,8 @@ pub fn run(args: &Compare) -> Result<Outcome, Failure> {
         let opened = reopen::open(path, args.surface.as_deref(), &args.reading.opening());
         let mut opened = opened.map_err(Failure::of_input)?;
         recipe::tolerances(&mut opened.recipe, &args.alike);
+        say::reading(&format!("{}: ", path.display()), &opened.losses, &opened.notes);
         grids.push((label(path), Measured::new(opened)));
-    }
-    for (name, measured) in &grids {
-        measured.notes().iter().for_each(|n| say::note(&format!("note: {name}: {n}")));
     }
     let columns: Vec<Column> = grids
         .iter()

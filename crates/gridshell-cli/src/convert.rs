@@ -22,7 +22,6 @@ pub fn run(args: &Convert) -> Result<Outcome, Failure> {
     let document = Document { supports, panels, ..opened.document };
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
     let wrote = handover::write_all(&args.output, &file)?;
-    opened.notes.iter().for_each(|n| say::note(&format!("note: {n}")));
     say::result(&(wrote + "\n"))?;
     Ok(Outcome::Done)
 }

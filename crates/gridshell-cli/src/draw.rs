@@ -17,7 +17,6 @@ pub fn run(args: &Draw) -> Result<Outcome, Failure> {
         picture::draw_sheet(&measured.subject(), &wish, file)?;
         wrote += &format!("wrote {}\n", file.display());
     }
-    measured.notes().iter().for_each(|n| say::note(&format!("note: {n}")));
     say::result(&wrote)?;
     Ok(Outcome::Done)
 }

@@ -45,7 +45,8 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
     let mut opened =
         reopen::open(&args.grid, args.surface.as_deref(), &opening).map_err(Failure::of_input)?;
     recipe::tolerances(&mut opened.recipe, &args.alike);
-    let Opened { document, grid, surface, edge_length, recipe, notes, .. } = opened;
+    say::reading("", &opened.losses, &opened.notes);
+    let Opened { document, grid, surface, edge_length, recipe, .. } = opened;
     let tolerances = Tolerances::from(&recipe.measure);
     let mut editor = Editor::new(Arc::new(surface), grid, recipe, edge_length);
     let before = editor.figures();
@@ -73,9 +74,6 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
         wrote.lines().for_each(say::note);
     } else {
         say::result(&table(&before, &edits, &suggested, &wrote))?;
-    }
-    for n in &notes {
-        say::note(&format!("note: {n}"));
     }
     Ok(Outcome::Done)
 }

@@ -31,6 +31,9 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
     };
     let model = model.map_err(Failure::of_input)?;
     let reference = reference.map_err(Failure::of_input)?;
+    // Losses that are too large to go on with are named by the error.
+    pipeline::check_whole(&model, &recipe)?;
+    say::reading("", &model.source().told_losses(), model.notes());
     let (job, bar) = progress::job(args.time_limit);
     let run = pipeline::generate(&model, &recipe, &job);
     bar.finish_and_clear();

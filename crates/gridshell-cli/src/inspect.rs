@@ -22,6 +22,8 @@ pub fn run(args: &Inspect) -> Result<Outcome, Failure> {
     args.picture.iter().try_for_each(|file| picture::check(file))?;
     let opening = args.reading.opening();
     let model = io::open_with(&args.surface, &opening).map_err(Failure::of_input)?;
+    // Notes are among the results.
+    say::reading("", &model.source().told_losses(), &[]);
     let inspection = inspect::inspect(&model)?;
     if !args.picture.is_empty() {
         let sketch = inspect::sketch(&model)?;

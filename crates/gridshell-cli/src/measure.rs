@@ -49,6 +49,5 @@ pub fn run(args: &Measure) -> Result<Outcome, Failure> {
     } else {
         say::result(&table::grid(name, quality, figures))?;
     }
-    measured.notes().iter().for_each(|n| say::note(&format!("note: {n}")));
     Ok(Outcome::Done)
 }

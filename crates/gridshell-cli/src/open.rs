@@ -2,14 +2,15 @@
 
 use crate::args::GridArgs;
 use crate::failure::Failure;
-use crate::recipe;
+use crate::{recipe, say};
 use gridshell::reopen::{self, Opened};
 
-/// The grid on its surface, with the tolerances that are given.
+/// The grid on its surface, with the tolerances that are given. What is to be known of its reading is told.
 pub fn open(args: &GridArgs) -> Result<Opened, Failure> {
     let opening = args.reading.opening();
     let opened = reopen::open(&args.grid, args.surface.as_deref(), &opening);
     let mut opened = opened.map_err(Failure::of_input)?;
+    say::reading("", &opened.losses, &opened.notes);
     recipe::tolerances(&mut opened.recipe, &args.alike);
     Ok(opened)
 }

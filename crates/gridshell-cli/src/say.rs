@@ -19,6 +19,12 @@ pub fn json(document: &impl Serialize) -> Result<(), Failure> {
     result(&(text + "\n"))
 }
 
+/// Tell what of a file could not be read, and what was done to it while reading. With several files `of` says which.
+pub fn reading(of: &str, losses: &[String], notes: &[String]) {
+    losses.iter().for_each(|line| note(&format!("warning: {of}{line}")));
+    notes.iter().for_each(|line| note(&format!("note: {of}{line}")));
+}
+
 /// Tell the user something beside the result.
 pub fn note(text: &str) {
     // Nobody to tell is no failure.

@@ -47,11 +47,6 @@ impl Measured {
     pub fn summary(&self) -> Option<&SurfaceSummary> {
         self.opened.summary.as_ref()
     }
-
-    /// What the user should know.
-    pub fn notes(&self) -> &[String] {
-        &self.opened.notes
-    }
 }
 
 impl<'a> Subject<'a> {

@@ -1,6 +1,7 @@
 //! Tables for people, after Table 3 of the paper.
 
 use gridshell::inspect::Inspection;
+use gridshell::math::digits::at_least;
 use gridshell::run::{Run, SurfaceSummary};
 use gridshell::schedule::Figures;
 use gridshell::stages::measure::{Lengths, Quality};
@@ -109,6 +110,9 @@ pub fn inspection(i: &Inspection) -> String {
             three_digits(suggestion.edge_length)
         );
     }
+    for loss in i.source.told_losses() {
+        let _ = writeln!(text, "{loss}");
+    }
     for note in &s.notes {
         let _ = writeln!(text, "note: {note}");
     }
@@ -132,10 +136,8 @@ fn origin(i: &Inspection) -> String {
     parts.join(", ") + "\n"
 }
 
-/// Four decimals, and for what is smaller than one as many as show four digits.
 fn four_digits(x: f64) -> String {
-    let digits = (4..16).find(|&d| x == 0.0 || x.abs() * 10f64.powi(d) >= 1000.0).unwrap_or(16);
-    format!("{x:.0$}", digits.max(4) as usize)
+    at_least(4, x)
 }
 
 /// A length to three digits, metres.

@@ -4,6 +4,7 @@
 //! the program's version it determines the grid bit for bit.
 
 use crate::error::{Error, Result};
+use crate::math::digits::three;
 use serde::{Deserialize, Serialize};
 
 /// Everything that determines a grid on a given surface.
@@ -16,6 +17,9 @@ pub struct Recipe {
     pub nodes: Option<usize>,
     /// Which parts of a model of several separate ones.
     pub part: Parts,
+    /// Whether a grid is laid although a part of the file that counts could not be read
+    /// ([`Source::losses`](crate::surface::Source::losses)).
+    pub accept_losses: bool,
     /// How the wanted length varies over the surface.
     pub size: Size,
     /// Direction that one family of lines is to follow where the shape allows.
@@ -431,6 +435,7 @@ impl Default for Recipe {
         Recipe {
             edge_length: None,
             nodes: None,
+            accept_losses: false,
             size: Size::Uniform,
             direction: Direction::Any,
             symmetry: Symmetry::None,
@@ -596,6 +601,10 @@ impl Recipe {
             within("candidates", candidates as f64, 1.0, 1e3)?;
         }
         within("regularize.node_range", self.regularize.node_range, 0.0, 1.0)?;
+        within("regularize.residual_weight", self.regularize.residual_weight, 0.0, 1e3)?;
+        let [hot, cold] = self.regularize.temperature;
+        positive("regularize.temperature", hot)?;
+        positive("regularize.temperature", cold)?;
         within("regularize.candidates", self.regularize.candidates as f64, 1.0, 1e4)?;
         within("relax.straightness", self.relax.straightness, 0.0, 100.0)?;
         positive("relax.settled", self.relax.settled)
@@ -635,8 +644,11 @@ impl Recipe {
             return Ok(());
         }
         Err(Error::Option(format!(
-            "an edge length of {edge_length} m does not suit a surface of {area:.3} m2: \
-             choose one between {least:.3e} and {largest:.3e} m"
+            "an edge length of {edge_length} m does not suit a surface of {} m2: \
+             choose one between {} and {} m",
+            three(area),
+            three(least),
+            three(largest)
         )))
     }
 }

@@ -30,8 +30,10 @@ pub struct Opened {
     pub edge_length: f64,
     /// The run's recipe, else the default one.
     pub recipe: Recipe,
-    /// What the user should know.
+    /// What the user should know: what was skipped or repaired while reading.
     pub notes: Vec<String>,
+    /// What of the design surface's file could not be read.
+    pub losses: Vec<String>,
 }
 
 /// Open the grid in a file, on the surface of this name or path; without one on the surface that a `.gridshell` file
@@ -51,7 +53,9 @@ pub fn open(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Ope
 fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
     // Where both are given, the unit is the surface's: our grids state their own.
     let of_grid = if surface.is_some() { Opening::default() } else { opening.clone() };
-    let PolygonMesh { name, points, faces, notes, .. } = io::read_mesh_with(path, &of_grid)?;
+    let mesh = io::read_mesh_with(path, &of_grid)?;
+    let PolygonMesh { name, points, faces, mut notes, source, .. } = mesh;
+    let mut losses = source.told_losses();
     let panels = panels(path, &faces)?;
     let edge_length = mean_side(&points, &panels);
     let recipe = Recipe::default();
@@ -65,12 +69,14 @@ fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Op
             let surface = sample(&model, edge_length, &recipe)?;
             let grid = Grid::from_panels(points, &panels, &surface)?;
             let summary = SurfaceSummary::new(&model, &surface);
+            notes.extend_from_slice(model.notes());
+            losses.extend(model.source().told_losses());
             (grid, surface, Some(summary), Some(io::reference(wanted, opening)?))
         }
     };
     let supports = Supports::Boundary.nodes(&grid, &surface)?;
     let document = Document { surface: reference, supports, ..Document::of_grid(&name, &grid) };
-    Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes })
+    Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes, losses })
 }
 
 fn open_document(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
@@ -91,6 +97,7 @@ fn open_document(path: &Path, surface: Option<&str>, opening: &Opening) -> Resul
         (None, None) => None,
     };
     let opened = restore(document, model.as_ref())?;
+    notes.extend(opened.notes);
     Ok(Opened { notes, ..opened })
 }
 
@@ -102,11 +109,12 @@ pub fn restore(document: Document, model: Option<&Model>) -> Result<Opened> {
     let xyz: Vec<DVec3> = document.nodes.iter().map(|&p| p.into()).collect();
     let recipe = document.recipe.clone().unwrap_or_default();
     let edge_length = document.edge_length.unwrap_or_else(|| mean_side(&xyz, &document.panels));
-    let notes = Vec::new();
     let Some(model) = model else {
         let (grid, surface) = Grid::alone(&document.name, xyz, &document.panels)?;
         let grid = with_features(grid, &document)?;
-        return Ok(Opened { document, grid, surface, summary: None, edge_length, recipe, notes });
+        let (notes, losses) = (Vec::new(), Vec::new());
+        let summary = None;
+        return Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes, losses });
     };
     let model = match &document.recipe {
         Some(recipe) => &*pipeline::smoothed(model, recipe)?,
@@ -125,7 +133,8 @@ pub fn restore(document: Document, model: Option<&Model>) -> Result<Opened> {
         None => Grid::from_panels(xyz, &document.panels, &surface)?,
     };
     let grid = with_features(grid, &document)?;
-    Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes })
+    let (notes, losses) = (model.notes().to_vec(), model.source().told_losses());
+    Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes, losses })
 }
 
 /// The file's places, if all of them are on this surface and the nodes stand there.

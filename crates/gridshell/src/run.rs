@@ -4,10 +4,11 @@
 
 use crate::error::Error;
 use crate::grid::Grid;
+use crate::math::digits::at_least;
 use crate::recipe::{self, Recipe};
 use crate::schedule::{Figures, Schedule};
 use crate::stages::measure::{Border, IrregularNode, Quality};
-use crate::surface::{Model, Sewing, Smoothing, Surface};
+use crate::surface::{Loss, Model, Sewing, Smoothing, Surface};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -128,7 +129,8 @@ impl PartSummary {
             let [x, y, z] =
                 [0, 1, 2].map(|k| f64::midpoint(self.bounds.min[k], self.bounds.max[k]));
             let (area, s) = (self.area, plural(loops));
-            text += &format!("{area:.3} m2, {loops} loop{s}, about ({x:.2}, {y:.2}, {z:.2})");
+            let area = at_least(3, area);
+            text += &format!("{area} m2, {loops} loop{s}, about ({x:.2}, {y:.2}, {z:.2})");
         }
         if !self.objects.is_empty() {
             text += &format!(", {}", self.objects.join(", "));
@@ -249,6 +251,8 @@ pub struct SurfaceSummary {
     pub smoothing: Option<Smoothing>,
     /// What was skipped or repaired while reading.
     pub notes: Vec<String>,
+    /// What of the file's geometry could not be read.
+    pub losses: Vec<Loss>,
 }
 
 /// One boundary loop.
@@ -299,6 +303,7 @@ impl SurfaceSummary {
             sewing,
             smoothing,
             notes: notes.clone(),
+            losses: model.source().losses.clone(),
         }
     }
 }
@@ -319,12 +324,21 @@ fn edge_gap(surface: &Surface) -> f64 {
             surface.deviation(&chain.surface_point(s), surface.carrier.points[v as usize])
         })
     });
-    off.fold(0.0, f64::max)
+    let size = surface.carrier.points.iter().fold(0.0_f64, |s, p| s.max(p.abs().max_element()));
+    below_rounding(off.fold(0.0, f64::max), size)
 }
 
 fn largest_gap(brep: &crate::surface::Brep) -> f64 {
     let gaps = brep.edges.iter().flat_map(|e| {
         [0, 1].map(|i| e.curve.point(e.range[i]).distance(brep.vertices[e.ends[i] as usize]))
     });
-    gaps.fold(0.0, f64::max)
+    let size = brep.vertices.iter().fold(0.0_f64, |s, v| s.max(v.abs().max_element()));
+    below_rounding(gaps.fold(0.0, f64::max), size)
+}
+
+/// A gap, or none where coordinates up to `size` cannot tell it from none.
+fn below_rounding(gap: f64, size: f64) -> f64 {
+    /// Steps of the last digit that evaluating a curve may add up to.
+    const STEPS: f64 = 64.0;
+    if gap <= STEPS * f64::EPSILON * size { 0.0 } else { gap }
 }

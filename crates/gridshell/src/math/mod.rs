@@ -7,6 +7,7 @@ pub(crate) mod blend;
 pub(crate) mod chunks;
 pub(crate) mod conjugate;
 pub(crate) mod delaunay;
+pub mod digits;
 pub mod dual;
 pub(crate) mod frame;
 pub(crate) mod least;

@@ -7,6 +7,7 @@
 
 mod contest;
 mod effort;
+mod missing;
 mod narrow;
 mod parts;
 mod smoothing;
@@ -23,6 +24,7 @@ use crate::schedule::{Schedule, Tolerances};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
 use crate::surface::{Model, Ruler, Sampling, Surface, builtin};
+pub use missing::check_whole;
 use rayon::prelude::*;
 pub use smoothing::smoothed;
 use starts::{Start, Starts};
@@ -37,9 +39,11 @@ const SENSIBLE_NODES: usize = 1000;
 ///
 /// # Errors
 /// [`Error::Option`] for a recipe that makes no sense, [`Error::Surface`] for a model that is no surface or has
-/// several parts of which the recipe chooses none, [`Error::NoGrid`] where no valid grid of this edge length exists.
+/// several parts of which the recipe chooses none or of which too much could not be read, [`Error::NoGrid`] where no
+/// valid grid of this edge length exists.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
+    check_whole(model, recipe)?;
     parts::generate(&*smoothed(model, recipe)?, recipe, job)
 }
 
