@@ -4,7 +4,7 @@ use crate::picture::colour::Coloring;
 use crate::picture::label::Labels;
 use crate::picture::sheet::{Paper, Sheet};
 use clap::{Args as ClapArgs, Parser, Subcommand};
-use gridshell::io::{Choice, LengthUnit, Opening};
+use gridshell::io::{Choice, Follow, LengthUnit, Opening};
 use std::path::PathBuf;
 
 /// Triangular grids for free-form gridshells.
@@ -72,6 +72,22 @@ impl Reading {
     }
 }
 
+/// How far grid files are believed.
+#[derive(ClapArgs)]
+pub struct Following {
+    /// Open the surface that a `.gridshell` file refers to wherever that is; without it only in the file's own folder and
+    /// below it.
+    #[arg(long)]
+    follow: bool,
+}
+
+impl Following {
+    /// As the library takes it.
+    pub fn follow(&self) -> Follow {
+        if self.follow { Follow::Anywhere } else { Follow::Near }
+    }
+}
+
 #[derive(ClapArgs)]
 pub struct Generate {
     /// A file (STEP, 3DM, IGES, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface; a `.gridshell`
@@ -94,6 +110,8 @@ pub struct Generate {
     pub nodes: Option<usize>,
     #[command(flatten)]
     pub reading: Reading,
+    #[command(flatten)]
+    pub following: Following,
     /// Seed of every random choice.
     #[arg(short, long, value_name = "S")]
     pub seed: Option<u64>,
@@ -205,6 +223,8 @@ pub struct GridArgs {
     #[command(flatten)]
     pub reading: Reading,
     #[command(flatten)]
+    pub following: Following,
+    #[command(flatten)]
     pub alike: Alike,
 }
 
@@ -263,6 +283,8 @@ pub struct Compare {
     #[command(flatten)]
     pub reading: Reading,
     #[command(flatten)]
+    pub following: Following,
+    #[command(flatten)]
     pub alike: Alike,
     /// A page with the table and a plan of each grid.
     #[arg(long, value_name = "FILE.html")]
@@ -285,6 +307,8 @@ pub struct Edit {
     pub surface: Option<String>,
     #[command(flatten)]
     pub reading: Reading,
+    #[command(flatten)]
+    pub following: Following,
     /// Where to write the edited grid, in the format of the name's end, as for `generate`; may be given more than once.
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,

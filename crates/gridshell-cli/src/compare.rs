@@ -44,7 +44,8 @@ pub fn run(args: &Compare) -> Result<Outcome, Failure> {
     args.html.as_deref().map_or(Ok(()), report::check)?;
     let mut grids = Vec::new();
     for path in &args.grids {
-        let opened = reopen::open(path, args.surface.as_deref(), &args.reading.opening());
+        let (opening, follow) = (args.reading.opening(), args.following.follow());
+        let opened = reopen::open(path, args.surface.as_deref(), &opening, follow);
         let mut opened = opened.map_err(Failure::of_input)?;
         recipe::tolerances(&mut opened.recipe, &args.alike);
         say::reading(&format!("{}: ", path.display()), &opened.losses, &opened.notes);
@@ -54,10 +55,13 @@ pub fn run(args: &Compare) -> Result<Outcome, Failure> {
         .iter()
         .map(|(name, measured)| Column { name, facts: facts(&measured.subject()) })
         .collect();
+    let mut reported = Ok(());
     if let Some(file) = &args.html {
         let subjects: Vec<Subject> = grids.iter().map(|(_, m)| m.subject()).collect();
-        report::write(file, &page(&columns, &subjects))?;
-        say::note(&format!("wrote {}", file.display()));
+        reported = report::write(file, &page(&columns, &subjects));
+        if reported.is_ok() {
+            say::note(&format!("wrote {}", file.display()));
+        }
     }
     if args.json {
         say::json(&Document {
@@ -69,7 +73,7 @@ pub fn run(args: &Compare) -> Result<Outcome, Failure> {
     } else {
         say::result(&table(&columns))?;
     }
-    Ok(Outcome::Done)
+    reported.map(|()| Outcome::Done)
 }
 
 /// One grid's figures.

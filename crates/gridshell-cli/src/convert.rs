@@ -21,7 +21,9 @@ pub fn run(args: &Convert) -> Result<Outcome, Failure> {
     let panels = schedule.panels.nodes.clone();
     let document = Document { supports, panels, ..opened.document };
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
-    let wrote = handover::write_all(&args.output, &file)?;
+    let (wrote, written) = handover::write_all(&args.output, &file);
+    handover::all_or_told(&wrote, [written])?;
+    let wrote = wrote.join("\n");
     say::result(&(wrote + "\n"))?;
     Ok(Outcome::Done)
 }

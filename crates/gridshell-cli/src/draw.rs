@@ -5,18 +5,22 @@ use crate::args::Draw;
 use crate::failure::Failure;
 use crate::picture::sheet::Wish;
 use crate::subject::Measured;
-use crate::{open, picture, say};
+use crate::{handover, open, picture, say};
 
 pub fn run(args: &Draw) -> Result<Outcome, Failure> {
     args.output.iter().try_for_each(|file| picture::check(file))?;
     let measured = Measured::new(open::open(&args.grid)?);
     let wish =
         Wish { sheet: args.view, paper: args.paper, coloring: args.color, labels: &args.labels };
-    let mut wrote = String::new();
+    let (mut wrote, mut drawn) = (Vec::new(), Vec::new());
     for file in &args.output {
-        picture::draw_sheet(&measured.subject(), &wish, file)?;
-        wrote += &format!("wrote {}\n", file.display());
+        let done = picture::draw_sheet(&measured.subject(), &wish, file);
+        if done.is_ok() {
+            wrote.push(format!("wrote {}", file.display()));
+        }
+        drawn.push(done);
     }
-    say::result(&wrote)?;
+    handover::all_or_told(&wrote, drawn)?;
+    say::result(&(wrote.join("\n") + "\n"))?;
     Ok(Outcome::Done)
 }

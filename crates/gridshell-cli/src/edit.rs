@@ -5,12 +5,11 @@ use crate::args::Edit;
 use crate::failure::Failure;
 use crate::{handover, recipe, say};
 use gridshell::edit::{Editor, Figures, Log};
-use gridshell::io::GridFile;
+use gridshell::io::{self, GridFile};
 use gridshell::reopen::{self, Opened};
 use gridshell::schedule::{Schedule, Tolerances};
 use serde::Serialize;
 use std::fmt::Write;
-use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -43,7 +42,8 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
     let log = args.log.as_deref().map(read_log).transpose()?;
     let opening = args.reading.opening();
     let mut opened =
-        reopen::open(&args.grid, args.surface.as_deref(), &opening).map_err(Failure::of_input)?;
+        reopen::open(&args.grid, args.surface.as_deref(), &opening, args.following.follow())
+            .map_err(Failure::of_input)?;
     recipe::tolerances(&mut opened.recipe, &args.alike);
     say::reading("", &opened.losses, &opened.notes);
     let Opened { document, grid, surface, edge_length, recipe, .. } = opened;
@@ -67,7 +67,9 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
     }
     document.panels.clone_from(&schedule.panels.nodes);
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
-    let wrote = handover::write_all(&args.output, &file)?;
+    let (wrote, written) = handover::write_all(&args.output, &file);
+    handover::all_or_told(&wrote, [written])?;
+    let wrote = wrote.join("\n");
     let (schema, version) = ("gridshell.edit/1", env!("CARGO_PKG_VERSION"));
     if args.json {
         say::json(&Document { schema, version, before, edits, suggested })?;
@@ -79,11 +81,7 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
 }
 
 fn read_log(path: &Path) -> Result<Log, Failure> {
-    let size = fs::metadata(path).map_err(|e| Failure::input(path, e))?.len();
-    if size > LARGEST_LOG {
-        return Err(Failure::input(path, format!("{size} bytes are no log of edits")));
-    }
-    let text = fs::read_to_string(path).map_err(|e| Failure::input(path, e))?;
+    let text = io::read_text(path, LARGEST_LOG)?;
     Log::from_json(&text).map_err(|e| Failure::input(path, e))
 }
 

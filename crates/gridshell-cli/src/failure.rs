@@ -5,8 +5,8 @@ use std::fmt::Display;
 use std::path::Path;
 
 /// An output could not be written, or something unforeseen.
-const FAILED: u8 = 1;
-const USAGE: u8 = 2;
+pub const FAILED: u8 = 1;
+pub const USAGE: u8 = 2;
 const INPUT: u8 = 3;
 const NO_GRID: u8 = 4;
 /// Exit code of a run that a limit or a signal ended.
@@ -51,6 +51,14 @@ impl Failure {
             Error::Io { .. } => Failure::other(error),
             _ => Failure::from(error),
         }
+    }
+
+    /// All of these that failed as one, so that none hides another.
+    pub fn all(done: impl IntoIterator<Item = Result<(), Failure>>) -> Result<(), Failure> {
+        let failed: Vec<Failure> = done.into_iter().filter_map(Result::err).collect();
+        let Some(code) = failed.first().map(|f| f.code) else { return Ok(()) };
+        let messages: Vec<String> = failed.into_iter().map(|f| f.message).collect();
+        Err(Failure { code, message: messages.join("; ") })
     }
 
     /// For errors after the input has been accepted.

@@ -18,14 +18,11 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
     args.report.as_deref().map_or(Ok(()), report::check)?;
     let structure = handover::structure(&args.handover)?;
     let supports = handover::supports(&args.handover)?;
-    if let Some(n) = args.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(n));
-        pool.build_global().map_err(Failure::other)?;
-    }
     let opening = args.reading.opening();
     let (model, reference) = match again.as_ref().and_then(|d| d.surface.clone()) {
         Some(reference) => {
-            (io::open_reference(&reference, Path::new(&args.surface)), Ok(reference))
+            let follow = args.following.follow();
+            (io::open_reference(&reference, Path::new(&args.surface), follow), Ok(reference))
         }
         None => (io::open_with(&args.surface, &opening), io::reference(&args.surface, &opening)),
     };
@@ -52,14 +49,17 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
     };
     let document = Document::of_run(&run, reference, supports);
     let file = GridFile { document: &document, schedule: &run.schedule, structure: &structure };
-    let wrote = handover::write_all(&outputs, &file);
-    let mut told = String::new();
+    let (mut wrote, written) = handover::write_all(&outputs, &file);
+    let mut reported = Ok(());
     if let Some(path) = &args.report {
         let page = report::page(&Subject::of_run(&run, &document), Some(&run));
-        report::write(path, &page)?;
-        told = format!("\nwrote {}", path.display());
+        reported = report::write(path, &page);
+        if reported.is_ok() {
+            wrote.push(format!("wrote {}", path.display()));
+        }
     }
-    let wrote = wrote? + &told;
+    handover::all_or_told(&wrote, [written, reported])?;
+    let wrote = wrote.join("\n");
     if args.json {
         say::json(&run)?;
         say::note(&wrote);

@@ -33,20 +33,23 @@ pub fn check_output(path: &Path) -> Result<(), Failure> {
     io::check_output(path).map_err(Failure::of_output)
 }
 
-/// Write all outputs; gives a line on each file. One that fails does not keep the others from being written.
-pub fn write_all(outputs: &[PathBuf], file: &GridFile) -> Result<String, Failure> {
+/// Write all outputs; gives a line on each file that was written, and what failed. One that fails does not keep the
+/// others from being written.
+pub fn write_all(outputs: &[PathBuf], file: &GridFile) -> (Vec<String>, Result<(), Failure>) {
     let (mut wrote, mut failed) = (Vec::new(), Vec::new());
     for path in outputs {
         match io::write(path, file) {
             Ok(files) => wrote.extend(files.iter().map(|p| format!("wrote {}", p.display()))),
-            Err(e) => failed.push(e.to_string()),
+            Err(e) => failed.push(Err(Failure::other(e))),
         }
     }
-    if failed.is_empty() {
-        return Ok(wrote.join("\n"));
-    }
-    for line in wrote {
-        say::note(&line);
-    }
-    Err(Failure::other(failed.join("; ")))
+    (wrote, Failure::all(failed))
+}
+
+/// All that failed, where something did; then what was written is told here.
+pub fn all_or_told(
+    wrote: &[String],
+    done: impl IntoIterator<Item = Result<(), Failure>>,
+) -> Result<(), Failure> {
+    Failure::all(done).inspect_err(|_| wrote.iter().for_each(|line| say::note(line)))
 }

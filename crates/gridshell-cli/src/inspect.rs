@@ -25,9 +25,10 @@ pub fn run(args: &Inspect) -> Result<Outcome, Failure> {
     // Notes are among the results.
     say::reading("", &model.source().told_losses(), &[]);
     let inspection = inspect::inspect(&model)?;
+    let mut drawn = Ok(());
     if !args.picture.is_empty() {
         let sketch = inspect::sketch(&model)?;
-        args.picture.iter().try_for_each(|file| picture::draw(&sketch, file))?;
+        drawn = Failure::all(args.picture.iter().map(|file| picture::draw(&sketch, file)));
     }
     if args.json {
         let version = env!("CARGO_PKG_VERSION");
@@ -35,5 +36,5 @@ pub fn run(args: &Inspect) -> Result<Outcome, Failure> {
     } else {
         say::result(&table::inspection(&inspection))?;
     }
-    Ok(Outcome::Done)
+    drawn.map(|()| Outcome::Done)
 }

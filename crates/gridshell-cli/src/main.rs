@@ -22,10 +22,12 @@ mod studio;
 mod subject;
 mod surfaces;
 mod table;
+mod threads;
 
 use args::{Args, Command};
 use clap::Parser;
 use failure::Failure;
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 /// How a command that did not fail has ended.
@@ -37,9 +39,28 @@ pub enum Outcome {
 }
 
 fn main() -> ExitCode {
-    // A usage error leaves with code 2 here.
-    let args = Args::parse();
-    let result = match &args.command {
+    threads::keep_when_files_are_limited();
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => return usage(&error),
+    };
+    let asked = match &args.command {
+        Command::Generate(args) => args.threads,
+        _ => None,
+    };
+    let result = threads::start(asked).and_then(|()| run(&args.command));
+    match result {
+        Ok(Outcome::Done) => ExitCode::SUCCESS,
+        Ok(Outcome::Stopped) => ExitCode::from(failure::STOPPED),
+        Err(Failure { code, message }) => {
+            say::note(&format!("gridshell: {message}"));
+            ExitCode::from(code)
+        }
+    }
+}
+
+fn run(command: &Command) -> Result<Outcome, Failure> {
+    match command {
         Command::Generate(args) => generate::run(args),
         Command::Measure(args) => measure::run(args),
         Command::Edit(args) => edit::run(args),
@@ -50,13 +71,15 @@ fn main() -> ExitCode {
         #[cfg(feature = "studio")]
         Command::Studio(args) => studio::run(args),
         Command::Surfaces => surfaces::run(),
-    };
-    match result {
-        Ok(Outcome::Done) => ExitCode::SUCCESS,
-        Ok(Outcome::Stopped) => ExitCode::from(failure::STOPPED),
-        Err(Failure { code, message }) => {
-            eprintln!("gridshell: {message}");
-            ExitCode::from(code)
-        }
+    }
+}
+
+/// Arguments that are wrong, or that ask for help or the version.
+fn usage(error: &clap::Error) -> ExitCode {
+    let printed = error.print().and_then(|()| std::io::stdout().flush());
+    match printed {
+        _ if error.use_stderr() => ExitCode::from(failure::USAGE),
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => ExitCode::from(failure::FAILED),
+        _ => ExitCode::SUCCESS,
     }
 }

@@ -30,9 +30,12 @@ pub fn run(args: &Measure) -> Result<Outcome, Failure> {
     let measured = Measured::new(open::open(&args.grid)?);
     let subject = measured.subject();
     let (name, quality, figures) = (subject.name(), subject.quality, &subject.schedule.figures);
+    let mut reported = Ok(());
     if let Some(path) = &args.report {
-        report::write(path, &report::page(&subject, None))?;
-        say::note(&format!("wrote {}", path.display()));
+        reported = report::write(path, &report::page(&subject, None));
+        if reported.is_ok() {
+            say::note(&format!("wrote {}", path.display()));
+        }
     }
     if args.json {
         say::json(&Document {
@@ -49,5 +52,5 @@ pub fn run(args: &Measure) -> Result<Outcome, Failure> {
     } else {
         say::result(&table::grid(name, quality, figures))?;
     }
-    Ok(Outcome::Done)
+    reported.map(|()| Outcome::Done)
 }

@@ -8,7 +8,8 @@ use gridshell::reopen::{self, Opened};
 /// The grid on its surface, with the tolerances that are given. What is to be known of its reading is told.
 pub fn open(args: &GridArgs) -> Result<Opened, Failure> {
     let opening = args.reading.opening();
-    let opened = reopen::open(&args.grid, args.surface.as_deref(), &opening);
+    let opened =
+        reopen::open(&args.grid, args.surface.as_deref(), &opening, args.following.follow());
     let mut opened = opened.map_err(Failure::of_input)?;
     say::reading("", &opened.losses, &opened.notes);
     recipe::tolerances(&mut opened.recipe, &args.alike);

@@ -88,17 +88,22 @@ fn vector(text: &str) -> Option<[f64; 3]> {
 
 /// The recipe with what the file says laid over it.
 fn overlay(recipe: &Recipe, path: &Path) -> Result<Recipe, Failure> {
-    let size = std::fs::metadata(path).map_err(|e| Failure::input(path, e))?.len();
-    if size > MAX_BYTES {
-        return Err(Failure::input(path, "this is too large for a recipe"));
-    }
-    let text = std::fs::read_to_string(path).map_err(|e| Failure::input(path, e))?;
-    let over: Table = toml::from_str(&text).map_err(|e| Failure::input(path, e))?;
+    let text = io::read_text(path, MAX_BYTES)?;
+    // What stands in a recipe is asked for, as flags are: a wrong type leaves as a wrong value does.
+    let wrong = |e| Failure::usage(format!("{}: {e}", path.display()));
+    let over: Table = toml::from_str(&text).map_err(wrong)?;
     // Read once on its own: errors then point to the line in the user's file.
-    toml::from_str::<Recipe>(&text).map_err(|e| Failure::input(path, e))?;
+    toml::from_str::<Recipe>(&text)
+        .map_err(wrong)?
+        .validate()
+        .map_err(|e| wrong_value(path, &e))?;
     let mut table = Table::try_from(recipe).map_err(Failure::other)?;
     lay_over(&mut table, over);
-    table.try_into().map_err(|e| Failure::input(path, e))
+    table.try_into().map_err(wrong)
+}
+
+fn wrong_value(path: &Path, error: &gridshell::Error) -> Failure {
+    Failure::usage(format!("{}: {error}", path.display()))
 }
 
 fn lay_over(under: &mut Table, over: Table) {

@@ -1,7 +1,7 @@
 //! Tables for people, after Table 3 of the paper.
 
 use gridshell::inspect::Inspection;
-use gridshell::math::digits::at_least;
+use gridshell::math::digits::{at_least, three};
 use gridshell::run::{Run, SurfaceSummary};
 use gridshell::schedule::Figures;
 use gridshell::stages::measure::{Lengths, Quality};
@@ -99,8 +99,9 @@ pub fn inspection(i: &Inspection) -> String {
     let _ = writeln!(text, "unit of the file: {} m", s.unit_in_metres);
     let _ = writeln!(
         text,
-        "largest gap: {:.1e} m between edges, {:.1e} m between edges and patches",
-        s.gap, s.edge_gap
+        "largest gap: {} m between edges, {} m between edges and patches",
+        three(s.gap),
+        three(s.edge_gap)
     );
     for suggestion in &i.edge_lengths {
         let _ = writeln!(

@@ -183,6 +183,7 @@ fn shape_fields(recipe: &Recipe) -> Vec<Field> {
             json!(recipe.corner_angle_deg),
         ),
         smooth_field(),
+        losses_field(),
         field(
             ["anchors", "Anchors", "m", "Points that become nodes: x, y, z, one a line."],
             "Shape",
@@ -202,6 +203,20 @@ fn smooth_field() -> Field {
         ],
         "Shape",
         choice(&[("false", "As it is"), ("true", "Smoothed")]),
+        json!("false"),
+    )
+}
+
+fn losses_field() -> Field {
+    field(
+        [
+            "accept_losses",
+            "Missing parts",
+            "",
+            "What of the file could not be read is listed in the notes: whether a grid is laid without it.",
+        ],
+        "Shape",
+        choice(&[("false", "Not without them"), ("true", "Accepted")]),
         json!("false"),
     )
 }
@@ -322,7 +337,7 @@ pub fn recipe(values: &Values, file: Option<&Recipe>) -> Result<Recipe> {
             _ if value.is_null() => continue,
             "direction" if value == "vector" => vector(text("vector").unwrap_or_default())?,
             "size" | "direction" => json!({ "kind": value }),
-            "smooth_input" => json!(value == "true"),
+            "smooth_input" | "accept_losses" => json!(value == "true"),
             "anchors" => points(value.as_str().unwrap_or_default())?,
             "nodes" | "candidates" | "seed" => whole(key, value)?,
             _ => value.clone(),
@@ -358,7 +373,7 @@ pub fn values(recipe: &Recipe) -> Values {
             },
             "size" | "direction" if plain["kind"] == "points" => Value::Null,
             "size" | "direction" => plain["kind"].clone(),
-            "smooth_input" => json!(plain.to_string()),
+            "smooth_input" | "accept_losses" => json!(plain.to_string()),
             "anchors" => {
                 let lines: Vec<String> =
                     plain.as_array().into_iter().flatten().map(triple).collect();

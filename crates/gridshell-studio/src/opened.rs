@@ -5,7 +5,7 @@ use crate::{scene, told};
 use axum::body::Bytes;
 use gridshell::error::{Error, Result};
 use gridshell::inspect::{self, Sketch};
-use gridshell::io::{self, Choice, Document, Opening, Reference};
+use gridshell::io::{self, Choice, Document, Follow, Opening, Reference};
 use gridshell::surface::{Model, PolygonMesh, Surface, builtin};
 use std::path::Path;
 
@@ -87,14 +87,9 @@ impl Opened {
     /// # Errors
     /// As [`io::open_reference`].
     pub fn referred(reference: &Reference, path: &Path) -> Result<Opened> {
-        let model = io::open_reference(reference, path)?;
-        let file = match reference {
-            Reference::Builtin(_) => None,
-            Reference::File { path: to, .. } => {
-                let near = path.with_file_name("").join(to);
-                Some(contents(if near.exists() { &near } else { Path::new(to) })?)
-            }
-        };
+        let model = io::open_reference(reference, path, Follow::Near)?;
+        let file = io::find_reference(reference, path, Follow::Near)?;
+        let file = file.map(|file| contents(&file)).transpose()?;
         Opened::new(model, Some(reference.clone()), file)
     }
 
@@ -145,6 +140,5 @@ pub fn in_folder<T>(name: &str, file: &[u8], work: impl FnOnce(&Path) -> Result<
 }
 
 fn contents(path: &Path) -> Result<Bytes> {
-    let read = std::fs::read(path);
-    Ok(read.map_err(|source| Error::Io { path: path.to_owned(), source })?.into())
+    Ok(io::read(path)?.into())
 }

@@ -117,7 +117,8 @@ pub fn info(inspection: &Inspection, sketch: &Surface, built_in: bool) -> Surfac
         facts,
         parts: several.into_iter().flatten().map(part).collect(),
         objects: inspection.source.objects.iter().map(object).collect(),
-        notes: surface.notes.clone(),
+        // What is missing comes first: no grid is laid without it unless that is accepted.
+        notes: inspection.source.told_losses().into_iter().chain(surface.notes.clone()).collect(),
         edge_length,
         bounds: [surface.bounds.min, surface.bounds.max],
     }

@@ -3,7 +3,7 @@
 use crate::edit::Editor;
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
-use crate::io::{self, Document, Opening};
+use crate::io::{self, Document, Follow, Opening};
 use crate::mesh::Mesh;
 use crate::pipeline;
 use crate::recipe::Recipe;
@@ -37,14 +37,21 @@ pub struct Opened {
 }
 
 /// Open the grid in a file, on the surface of this name or path; without one on the surface that a `.gridshell` file
-/// refers to, or by itself. `opening` says how the surface is read, or the grid where there is none.
+/// refers to (`follow` says how far), or by itself. `opening` says how the surface is read, or the grid where there is none.
 ///
 /// # Errors
 /// [`Error::Io`], [`Error::Parse`] with line or element, [`Error::Surface`] where the panels are no manifold or the
 /// surface cannot carry them, [`Error::Option`] for a surface or format that is not known.
-pub fn open(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
+pub fn open(
+    path: &Path,
+    surface: Option<&str>,
+    opening: &Opening,
+    follow: Follow,
+) -> Result<Opened> {
     match path.extension() {
-        Some(e) if e.eq_ignore_ascii_case("gridshell") => open_document(path, surface, opening),
+        Some(e) if e.eq_ignore_ascii_case("gridshell") => {
+            open_document(path, surface, opening, follow)
+        }
         _ if io::reads_mesh(path) => open_mesh(path, surface, opening),
         _ => Err(io::unknown(path, &format!("gridshell, {}", io::MESH_FORMATS))),
     }
@@ -79,7 +86,12 @@ fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Op
     Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes, losses })
 }
 
-fn open_document(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
+fn open_document(
+    path: &Path,
+    surface: Option<&str>,
+    opening: &Opening,
+    follow: Follow,
+) -> Result<Opened> {
     let mut document = io::read_document(path)?;
     let mut notes = Vec::new();
     let model = match (surface, &document.surface) {
@@ -87,7 +99,7 @@ fn open_document(path: &Path, surface: Option<&str>, opening: &Opening) -> Resul
             document.surface = Some(io::reference(wanted, opening)?);
             Some(io::open_with(wanted, opening)?)
         }
-        (None, Some(reference)) => match io::open_reference(reference, path) {
+        (None, Some(reference)) => match io::open_reference(reference, path, follow) {
             Ok(model) => Some(model),
             Err(e) => {
                 notes.push(format!("{e}; the grid is taken for its own surface"));

@@ -1,6 +1,7 @@
 //! Small pieces far from everything else: leftovers of the drawing, not of the surface.
 
 use super::weld::{Work, bounds, place};
+use crate::surface::Loss;
 use glam::DVec3;
 
 /// A piece is small below this share of the largest one's area.
@@ -38,8 +39,21 @@ pub(super) fn drop_far(work: &mut Work) {
     let Some(first) = told.first() else { return };
     let more =
         if told.len() > 1 { format!(", and {} more", told.len() - 1) } else { String::new() };
-    work.notes
-        .push(format!("left out {} small pieces far from the rest: {first}{more}", told.len()));
+    let (faces, area) = gone
+        .iter()
+        .zip(&work.faces)
+        .filter(|(g, _)| **g)
+        .fold((0, 0.0), |(n, area), (_, face)| (n + 1, area + work.area(face)));
+    work.losses.push(Loss {
+        what: format!("{} small piece{}", told.len(), if told.len() == 1 { "" } else { "s" }),
+        why: format!(
+            "far from the rest, so taken for leftovers of the drawing: {first}{more}; export them to a file of their own \
+             if they are meant"
+        ),
+        faces,
+        area: Some(area),
+        whole: false,
+    });
     work.drop_faces(&gone);
 }
 

@@ -2,6 +2,7 @@
 
 use super::weld::{Use, Work, place, uses};
 use crate::error::{Error, Result};
+use crate::surface::Loss;
 use std::path::Path;
 
 /// What hangs on a surface is a sliver below this share of the whole area.
@@ -29,9 +30,14 @@ pub(super) fn cut(path: &Path, work: &mut Work) -> Result<()> {
         let at = gone.iter().position(|&g| g).map_or(0, |f| work.faces[f][0]);
         let count = gone.iter().filter(|&&g| g).count();
         let at = place(work.points[at as usize]);
-        work.notes.push(format!(
-            "cut off {count} faces that hung on edges with two other faces, the first near {at}"
-        ));
+        let lost = work.faces.iter().zip(&gone).filter(|(_, g)| **g);
+        work.losses.push(Loss {
+            what: "slivers".to_owned(),
+            why: format!("they hung on edges with two other faces, the first near {at}"),
+            faces: count,
+            area: Some(lost.map(|(face, _)| work.area(face)).sum()),
+            whole: false,
+        });
         work.drop_faces(&gone);
     }
     let uses = uses(&work.faces);

@@ -90,7 +90,7 @@ pub fn write(path: &Path, grid: &GridFile) -> Result<Vec<PathBuf>> {
         Format::Ifc => ifc::encode(grid),
         Format::OpenSees => opensees::encode(grid),
     };
-    file::replace(path, &bytes)?;
+    replace::replace(path, &bytes)?;
     Ok(vec![path.to_owned()])
 }
 
@@ -103,7 +103,7 @@ fn table(path: &Path, name: &str) -> PathBuf {
 fn write_tables(path: &Path, grid: &GridFile) -> Result<Vec<PathBuf>> {
     let tables = csv::tables(grid);
     let files = tables.each_ref().map(|(name, text)| (table(path, name), text.as_bytes()));
-    file::replace_all(&files)?;
+    replace::replace_all(&files)?;
     Ok(files.map(|(path, _)| path).to_vec())
 }
 
@@ -115,8 +115,8 @@ fn write_tables(path: &Path, grid: &GridFile) -> Result<Vec<PathBuf>> {
 pub fn check_output(path: &Path) -> Result<()> {
     match Format::of(path)? {
         Format::Csv => {
-            csv::TABLES.iter().try_for_each(|name| file::check_place(&table(path, name)))
+            csv::TABLES.iter().try_for_each(|name| replace::check_place(&table(path, name)))
         }
-        _ => file::check_place(path),
+        _ => replace::check_place(path),
     }
 }

@@ -23,6 +23,7 @@ mod off;
 mod opensees;
 mod ply;
 mod reference;
+mod replace;
 #[cfg(feature = "3dm")]
 mod rhino;
 mod saf;
@@ -41,12 +42,13 @@ mod xlsx;
 
 pub use choice::Choice;
 pub use document::{Document, PlaceRecord, SCHEMA};
-pub use file::{check_place, replace};
+pub use file::{read, read_text};
 pub use format::{Format, check_output, write};
 pub use grid_file::GridFile;
 pub use lines::{read_anchors, read_guides};
 pub use native::read_document;
-pub use reference::{Reference, open_reference, reference};
+pub use reference::{Follow, Reference, find_reference, open_reference, reference};
+pub use replace::{check_place, replace};
 pub use unit::LengthUnit;
 pub use values::{read_directions, read_lengths};
 
@@ -193,7 +195,8 @@ pub fn read_mesh_with(path: &Path, opening: &Opening) -> Result<PolygonMesh> {
         refuse_unit(path, opening)?;
     }
     let mut mesh = weld::weld(path, read(path)?, opening)?;
-    mesh.source = Source::of_format(&extension(path).to_uppercase());
+    let losses = std::mem::take(&mut mesh.source.losses);
+    mesh.source = Source { losses, ..Source::of_format(&extension(path).to_uppercase()) };
     Ok(mesh)
 }
 

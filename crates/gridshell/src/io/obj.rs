@@ -6,6 +6,7 @@ use super::scan::{self, Line};
 use super::soup::Soup;
 use super::{LengthUnit, file, text};
 use crate::error::Result;
+use crate::surface::Loss;
 use glam::DVec3;
 use std::collections::HashSet;
 use std::fmt::Write;
@@ -25,16 +26,16 @@ pub(super) fn read(path: &Path) -> Result<Soup> {
         .filter_map(|l| l.trim_start().strip_prefix('#'))
         .find_map(LengthUnit::stated);
     let mut soup = Soup { unit, first: 1, ..Soup::default() };
-    let (mut curved, mut dots, mut lines) = (0, 0, Vec::new());
+    let (mut curves, mut curved, mut lines, mut dots) = (0, 0, Vec::new(), Vec::new());
     // With the number of vertices above: those further down may be named as well.
     let mut drawn: Vec<(Line, usize)> = Vec::new();
     for line in scan::lines(path, &joined) {
         let mut words = line.text.split_ascii_whitespace();
         match words.next() {
             Some("v") => soup.points.push(line.point(&mut words)?),
-            Some("f" | "fo" | "l") => drawn.push((line, soup.points.len())),
-            Some("p") => dots += 1,
-            Some("curv" | "curv2" | "surf") => curved += 1,
+            Some("f" | "fo" | "l" | "p") => drawn.push((line, soup.points.len())),
+            Some("curv" | "curv2") => curves += 1,
+            Some("surf") => curved += 1,
             _ => {}
         }
     }
@@ -44,6 +45,8 @@ pub(super) fn read(path: &Path) -> Result<Soup> {
         let corners: Vec<u32> = words.map(corner).collect::<Result<_>>()?;
         if line.text.starts_with('l') {
             lines.push(corners);
+        } else if line.text.starts_with('p') {
+            dots.extend(corners);
         } else if corners.len() < 3 {
             return Err(line.error("a face needs three corners or more"));
         } else {
@@ -51,9 +54,29 @@ pub(super) fn read(path: &Path) -> Result<Soup> {
         }
     }
     let stray = stray_lines(&soup.faces, &lines);
-    soup.note_count(stray, "skipped", "lines that are no edges of faces");
-    soup.note_count(dots, "skipped", "points");
-    soup.note_count(curved, "skipped", "curved elements: only faces are read from OBJ");
+    let loose = loose_points(&soup.faces, dots);
+    let one_or_more =
+        |n: usize, one: &'static str, more: &'static str| if n == 1 { one } else { more };
+    let what =
+        one_or_more(stray, "line that is no edge of a face", "lines that are no edges of faces");
+    soup.note_count(stray, "skipped", what);
+    let what = one_or_more(
+        loose,
+        "point that is no corner of a face",
+        "points that are no corners of faces",
+    );
+    soup.note_count(loose, "skipped", what);
+    soup.note_count(curves, "skipped", one_or_more(curves, "curve", "curves"));
+    if curved > 0 {
+        soup.losses.push(Loss {
+            what: format!("{curved} curved surface{}", if curved == 1 { "" } else { "s" }),
+            why: "only meshes are read from OBJ; export the surface as a mesh, or as STEP"
+                .to_owned(),
+            faces: curved,
+            area: None,
+            whole: true,
+        });
+    }
     Ok(soup)
 }
 
@@ -68,6 +91,17 @@ fn stray_lines(faces: &[Vec<u32>], lines: &[Vec<u32>]) -> usize {
         faces.iter().flat_map(|f| (0..f.len()).map(move |k| around(f, k))).collect();
     let leaves = |l: &&Vec<u32>| l.windows(2).any(|w| !edges.contains(&sorted(w[0], w[1])));
     lines.iter().filter(leaves).count()
+}
+
+/// How many of these points are no corners of faces: those that mark nodes of a grid say nothing new.
+fn loose_points(faces: &[Vec<u32>], mut dots: Vec<u32>) -> usize {
+    if dots.is_empty() {
+        return 0;
+    }
+    let corners: HashSet<u32> = faces.iter().flatten().copied().collect();
+    dots.sort_unstable();
+    dots.dedup();
+    dots.iter().filter(|v| !corners.contains(v)).count()
 }
 
 /// Join lines that end in a backslash with the next, keeping the count of lines. A comment may end in a folder's name.

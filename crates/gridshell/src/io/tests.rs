@@ -368,12 +368,15 @@ fn units_are_taken_from_comments_and_from_the_designer() {
 #[test]
 fn small_pieces_far_away_and_stray_lines_are_left_out_with_a_note() {
     let text = "v 500000 4000000 0\nv 500010 4000000 0\nv 500010 4000010 0\nv 500000 4000010 0\n\
-                f 1 2 3 4\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 5 6 7\nl 1 6\nl 1 2 3\np 7\n";
+                f 1 2 3 4\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 5 6 7\nl 1 6\nl 1 2 3\nv 0 0 1\np 7 8\n";
     let mesh = Scratch::new("stray.obj", text).read().expect("a mesh");
     assert_eq!((mesh.points.len(), mesh.faces.len()), (4, 1));
-    for told in ["1 small pieces far", "1 lines", "1 points"] {
+    for told in ["1 line that", "1 point that"] {
         assert!(mesh.notes.iter().any(|n| n.contains(told)), "{told}: {:?}", mesh.notes);
     }
+    let [lost] = mesh.source.losses.as_slice() else { panic!("{:?}", mesh.source.losses) };
+    assert_eq!((lost.faces, lost.whole), (1, false));
+    assert!((lost.area.expect("known") - 0.005).abs() < 1e-6 && lost.why.contains("far"), "{lost}");
 }
 
 #[test]
@@ -381,7 +384,8 @@ fn sliver_on_an_edge_of_two_faces_is_cut_off() {
     let text = "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nv 5 5 0.001\nf 1 2 3\nf 1 3 4\nf 1 3 5\n";
     let mesh = Scratch::new("sliver.obj", text).read().expect("a mesh");
     assert_eq!(mesh.faces.len(), 2);
-    assert!(mesh.notes.iter().any(|n| n.contains("cut off 1")), "{:?}", mesh.notes);
+    let [lost] = mesh.source.losses.as_slice() else { panic!("{:?}", mesh.source.losses) };
+    assert!(lost.faces == 1 && lost.why.contains("two other faces"), "{lost}");
 }
 
 #[test]

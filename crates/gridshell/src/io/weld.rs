@@ -9,7 +9,7 @@ use super::soup::Soup;
 use super::{LengthUnit, Opening, far, file, fins, merge, stitch, turn};
 use crate::error::{Error, Result};
 use crate::surface::nurbs::FARTHEST;
-use crate::surface::{PolygonMesh, Source, ear};
+use crate::surface::{Loss, PolygonMesh, Source, ear};
 use glam::DVec3;
 use std::collections::HashSet;
 use std::path::Path;
@@ -34,6 +34,7 @@ pub(super) struct Work {
     /// Number of the first face in the file.
     pub first: usize,
     pub notes: Vec<String>,
+    pub losses: Vec<Loss>,
     /// Vertices that were merged into others.
     pub merged: usize,
 }
@@ -68,20 +69,20 @@ pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening) -> Result<Polygon
     part_at_vertices(&mut work);
     drop_unused(&mut work);
     note_many_sided(&mut work);
-    let Work { points, faces, notes, .. } = work;
+    let Work { points, faces, notes, losses, .. } = work;
     Ok(PolygonMesh {
         name: file::stem(path),
         points,
         faces,
         notes,
-        source: Source::default(),
+        source: Source { losses, ..Source::default() },
         smoothing: None,
     })
 }
 
 impl Work {
     fn new(path: &Path, soup: Soup, wanted: Option<LengthUnit>) -> Result<Work> {
-        let Soup { mut points, faces, mut notes, unit, first, .. } = soup;
+        let Soup { mut points, faces, mut notes, losses, unit, first, .. } = soup;
         notes.extend(unit_note(unit, wanted));
         let metres = wanted.or(unit).map_or(1.0, LengthUnit::metres);
         if metres != 1.0 {
@@ -90,7 +91,7 @@ impl Work {
             }
         }
         let origin = (0..faces.len() as u32).collect();
-        let work = Work { points, faces, origin, first, notes, merged: 0 };
+        let work = Work { points, faces, origin, first, notes, losses, merged: 0 };
         work.check(path)?;
         Ok(work)
     }

@@ -5,6 +5,7 @@ use super::super::json::{self, Json};
 use super::super::soup::Soup;
 use super::super::{file, scan};
 use crate::error::{Error, Result};
+use crate::surface::Loss;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::path::Path;
@@ -53,8 +54,24 @@ pub(in crate::io) fn read(path: &Path) -> Result<Soup> {
         let dots = if more > 0 { format!(" and {more} more") } else { String::new() };
         let others = others.into_iter().take(5).collect::<Vec<_>>().join(", ");
         soup.notes.push(format!("of several meshes {taken} was taken; left out: {others}{dots}"));
+        // Form and force diagrams are drawings; any other mesh may be meant as well.
+        let surfaces = (0..found.len()).filter(|&k| k != best && rank(&found[k]) >= SURFACE);
+        let lost = surfaces.map(|k| lost(path, &found[k]));
+        soup.losses = lost.collect();
     }
     Ok(soup)
+}
+
+/// A mesh that was not taken.
+fn lost(path: &Path, found: &Found) -> Loss {
+    let soup = soup(path, found.mesh).unwrap_or_default();
+    Loss {
+        what: format!("mesh {}", found.told()),
+        why: "one mesh is read from a COMPAS file; export this one to a file of its own".to_owned(),
+        faces: soup.faces.len(),
+        area: None,
+        whole: true,
+    }
 }
 
 impl Found<'_> {
@@ -102,6 +119,9 @@ fn told_way(way: &[Step]) -> String {
     way.iter().map(told).collect::<Vec<_>>().join(".")
 }
 
+/// The rank of a mesh that is no drawing.
+const SURFACE: u8 = 2;
+
 /// How likely a mesh is the surface: a thrust diagram is, form and force diagrams are drawings in the plane.
 fn rank(found: &Found) -> u8 {
     let is = |word: &str| {
@@ -112,7 +132,7 @@ fn rank(found: &Found) -> u8 {
         () if is("thrust") => 3,
         () if is("force") => 0,
         () if is("form") || is("pattern") => 1,
-        () => 2,
+        () => SURFACE,
     }
 }
 

@@ -3,7 +3,7 @@
 //!
 //! `records` sorts the lines, `global` and `directory` read what their sections say, `tokens` splits
 //! parameters; `curves` and `surfaces` make splines of entities; `loops`, `trimmed` and `shells` make faces
-//! of them; `roots` says which entities stand for themselves. What cannot be read is left out and noted by its
+//! of them; `roots` says which entities stand for themselves. What cannot be read is left out and told by its
 //! directory number ("D17") and line. Counts are held against what the file holds before anything is set aside, and
 //! all work is counted, so a file that is wrong ends in an error, not in a hang.
 
@@ -21,12 +21,12 @@ mod surfaces;
 mod tokens;
 mod trimmed;
 
+use super::file;
 use crate::error::{Error, Result};
 use crate::surface::brep::Brep;
-use crate::surface::{Source, Unit};
+use crate::surface::{Loss, Source, Unit};
 use directory::{Directory, Entry};
 use std::cell::{Cell, RefCell};
-use std::fs;
 use std::path::Path;
 
 /// Larger files are refused, bytes.
@@ -69,6 +69,7 @@ struct File<'a> {
     spent: Cell<usize>,
     limit: usize,
     notes: RefCell<Vec<String>>,
+    losses: RefCell<Vec<Loss>>,
 }
 
 impl File<'_> {
@@ -81,6 +82,37 @@ impl File<'_> {
 
     fn note(&self, note: String) {
         self.notes.borrow_mut().push(note);
+    }
+
+    /// Keep in mind that `entry` could not be used; what is fatal stays an error.
+    fn or_lose(
+        &self,
+        entry: &Entry,
+        result: std::result::Result<(), Fault>,
+    ) -> std::result::Result<(), Fault> {
+        match result {
+            Err(fault) if !fault.fatal => {
+                let what = match entry.kind {
+                    144 => "trimmed surface",
+                    143 => "bounded surface",
+                    186 => "solid",
+                    514 => "shell",
+                    510 => "face",
+                    408 => "subfigure",
+                    _ => "surface",
+                };
+                let whole = matches!(entry.kind, 186 | 514 | 408);
+                self.losses.borrow_mut().push(Loss {
+                    what: format!("{what} D{}", entry.number),
+                    why: format!("{}: {}", fault.place, fault.what),
+                    faces: usize::from(!whole),
+                    area: None,
+                    whole,
+                });
+                Ok(())
+            }
+            other => other,
+        }
     }
 
     /// Count work, and refuse to do more than any sensible file asks for.
@@ -100,13 +132,9 @@ impl File<'_> {
 /// [`Error::Io`] where the file cannot be opened, [`Error::Parse`] with line or entity where it is no IGES file, too
 /// large, cut off, or holds no face that can be used.
 pub fn read(path: &Path) -> Result<Brep> {
-    let io = |source| Error::Io { path: path.to_path_buf(), source };
     let fault =
         |f: Fault| Error::Parse { path: path.to_path_buf(), place: f.place, message: f.what };
-    if fs::metadata(path).map_err(io)?.len() > MOST_BYTES {
-        return Err(fault(Fault::new("file", format!("larger than {} MB", MOST_BYTES >> 20))));
-    }
-    let mut brep = parse(&fs::read(path).map_err(io)?).map_err(fault)?;
+    let mut brep = parse(&file::read_at_most(path, MOST_BYTES)?).map_err(fault)?;
     path.file_stem().and_then(|s| s.to_str()).unwrap_or("surface").clone_into(&mut brep.name);
     Ok(brep)
 }
@@ -117,7 +145,8 @@ fn parse(bytes: &[u8]) -> std::result::Result<Brep, Fault> {
     let directory = Directory::new(&records, global.marks)?;
     let limit =
         WORK + WORK_OF_ENTITY * directory.entries.len() + WORK_OF_RECORD * records.parameters.len();
-    let file = File { directory, spent: Cell::new(0), limit, notes: RefCell::default() };
+    let (notes, losses) = Default::default();
+    let file = File { directory, spent: Cell::new(0), limit, notes, losses };
     if global.unit_guessed {
         file.note("the file names no unit of length: taken as millimetres".into());
     }
@@ -130,8 +159,10 @@ fn parse(bytes: &[u8]) -> std::result::Result<Brep, Fault> {
     let unit = (!global.unit_guessed).then(|| Unit::of_metres(global.metres));
     brep.source = Source { application: global.application, unit, ..Source::of_format("IGES") };
     let mut notes = file.notes.into_inner();
+    brep.source.losses = file.losses.into_inner();
     if brep.faces.is_empty() {
-        let why: Vec<String> = notes.iter().take(3).cloned().collect();
+        let lost = brep.source.losses.iter().map(ToString::to_string);
+        let why: Vec<String> = lost.chain(notes.iter().cloned()).take(3).collect();
         let why = if why.is_empty() { String::new() } else { format!(" ({})", why.join("; ")) };
         return Err(Fault::new(
             "file",

@@ -5,6 +5,7 @@ use super::directory::Entry;
 use super::shells::{self, Shared};
 use super::surfaces::is_surface;
 use super::{Fault, File, MOST_FACES, MOST_LEVELS, PLACING, trimmed};
+use crate::surface::Loss;
 use crate::surface::brep::Brep;
 use glam::{DAffine3, DVec3};
 use std::collections::BTreeSet;
@@ -28,16 +29,23 @@ impl File<'_> {
                 orphans += 1;
             } else {
                 let added = self.add(&mut found, &mut shared, entry, 0);
-                self.or_note(added)?;
+                self.or_lose(entry, added)?;
             }
         }
         if blank > 0 {
-            self.note(format!("{blank} surface(s) or shell(s) are blanked and left out"));
+            self.note(format!(
+                "{blank} hidden (blanked) surface(s) or shell(s) left out; show them in the program that wrote the file to read \
+                 them"
+            ));
         }
         if orphans > 0 {
-            self.note(format!(
-                "{orphans} surface(s) are parts of entities that are not read, and left out"
-            ));
+            self.losses.borrow_mut().push(Loss {
+                what: format!("{orphans} surface(s)"),
+                why: "they are parts of entities that are not read; export them as surfaces of their own".into(),
+                faces: orphans,
+                area: None,
+                whole: false,
+            });
         }
         let mut brep = Brep::default();
         trimmed::append(&mut brep, found, &DAffine3::from_scale(DVec3::splat(metres)));
@@ -109,7 +117,7 @@ impl File<'_> {
                 continue;
             }
             let added = self.add(&mut part, &mut shared, &member, level + 1);
-            self.or_note(added)?;
+            self.or_lose(&member, added)?;
         }
         if brep.faces.len() + part.faces.len() > MOST_FACES {
             return Err(Fault {

@@ -35,7 +35,7 @@ impl File<'_> {
         Ok(())
     }
 
-    /// The faces of a 514; those that cannot be used are noted.
+    /// The faces of a 514; those that cannot be used are lost.
     pub fn shell(&self, brep: &mut Brep, shared: &mut Shared, entry: &Entry) -> Result<(), Fault> {
         let p = self.directory.parameters(entry)?;
         if entry.kind != 514 {
@@ -44,24 +44,19 @@ impl File<'_> {
         for k in 0..p.count(0)? {
             let number = p.pointer(1 + 2 * k)?.ok_or_else(|| p.fault("a face is missing"))?;
             let reversed = p.number_or(2 + 2 * k, 1.0) == 0.0;
-            let added = self.known(number).and_then(|face| {
-                self.spend(&face, VISIT)?;
-                self.shell_face(brep, shared, &face, reversed)
-            });
-            self.or_note(added)?;
+            let face = match self.known(number) {
+                Ok(face) => face,
+                Err(missing) => {
+                    self.or_lose(&Entry { number, kind: 510, ..*entry }, Err(missing))?;
+                    continue;
+                }
+            };
+            let added = self
+                .spend(&face, VISIT)
+                .and_then(|()| self.shell_face(brep, shared, &face, reversed));
+            self.or_lose(&face, added)?;
         }
         Ok(())
-    }
-
-    /// Note why something was left out; what is fatal stays an error.
-    pub fn or_note(&self, result: Result<(), Fault>) -> Result<(), Fault> {
-        match result {
-            Err(fault) if !fault.fatal => {
-                self.note(format!("{} left out: {}", fault.place, fault.what));
-                Ok(())
-            }
-            other => other,
-        }
     }
 
     /// One 510.

@@ -241,11 +241,8 @@ fn curves_that_contain_themselves_end_in_a_note_with_the_entity() {
     sketch.add(122, 0, 0, "00000000", "3,0.,0.,1.");
     let brep = sketch.read();
     assert_eq!(brep.faces.len(), 1);
-    assert!(
-        brep.notes.iter().any(|n| n.contains("D3") && n.contains("nested")),
-        "{:?}",
-        brep.notes
-    );
+    let lost = &brep.source.losses;
+    assert!(lost.iter().any(|l| l.what.contains("D3") && l.why.contains("nested")), "{lost:?}");
 }
 
 #[test]

@@ -22,12 +22,10 @@ mod trimmed;
 mod units;
 
 use super::soup::Soup;
-use super::{Opening, weld};
+use super::{Opening, file, weld};
 use crate::error::{Error, Result};
 use crate::surface::{Brep, Model, PolygonMesh, Source, Unit};
 use reading::Reading;
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 use step_io::StepModel;
 
@@ -48,17 +46,14 @@ enum Found {
 /// [`Error::Io`] where the file cannot be opened, [`Error::Parse`] where it is no STEP file, too large, or
 /// holds no face that can be used; [`Error::Surface`] where it holds triangles only, and they are no surface.
 pub fn read(path: &Path) -> Result<Model> {
-    let io = |source| Error::Io { path: path.to_path_buf(), source };
-    let file = File::open(path).map_err(io)?;
-    if file.metadata().map_err(io)?.len() > MOST_BYTES {
-        return Err(fault(path, "file", &format!("larger than {} MB", MOST_BYTES >> 20)));
-    }
+    let bytes = file::read_at_most(path, MOST_BYTES)?;
     let name = path.file_stem().and_then(|s| s.to_str()).unwrap_or("surface").to_owned();
-    match parse(file.take(MOST_BYTES)).map_err(|(place, what)| fault(path, &place, &what))? {
+    match parse(bytes).map_err(|(place, what)| fault(path, &place, &what))? {
         Found::Faces(brep) => Ok(Model::Brep(Brep { name, ..brep })),
         Found::Triangles(soup, source) => {
             let mesh = weld::weld(path, soup, &Opening::default())?;
-            Ok(Model::Mesh(PolygonMesh { source, ..mesh }))
+            let losses = source.losses.into_iter().chain(mesh.source.losses).collect();
+            Ok(Model::Mesh(PolygonMesh { source: Source { losses, ..source }, ..mesh }))
         }
     }
 }
@@ -68,9 +63,7 @@ fn fault(path: &Path, place: &str, what: &str) -> Error {
 }
 
 /// Read what the text of a STEP file holds; place and sentence on failure.
-fn parse(mut text: impl Read) -> std::result::Result<Found, (String, String)> {
-    let mut bytes = Vec::new();
-    text.read_to_end(&mut bytes).map_err(|e| ("file".to_owned(), e.to_string()))?;
+fn parse(bytes: Vec<u8>) -> std::result::Result<Found, (String, String)> {
     let (text, notes) = mend::mended(bytes);
     let (model, report) =
         step_io::read(text.bytes.as_slice()).map_err(|e| told(&e, &text.bytes))?;

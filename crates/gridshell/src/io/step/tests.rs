@@ -6,7 +6,7 @@ use glam::DVec3;
 
 /// The exact faces in a text.
 fn parse(text: &[u8]) -> std::result::Result<Brep, (String, String)> {
-    match super::parse(text)? {
+    match super::parse(text.to_vec())? {
         Found::Faces(brep) => Ok(brep),
         Found::Triangles(..) => panic!("triangles only"),
     }

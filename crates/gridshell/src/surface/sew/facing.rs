@@ -14,7 +14,7 @@ const ALONG: f64 = 0.9;
 /// Places on other edges that are looked at in all: a heap of copies would ask for their square.
 const MOST_FEET: usize = 4_000_000;
 
-/// Add to `sewing` what is left within `reach` metres.
+/// Add to `sewing` what is left within `reach` metres, but farther than its tolerance.
 pub(super) fn look(brep: &Brep, reach: f64, sewing: &mut Sewing) {
     let naked = Naked::new(brep);
     let mut feet = 0;
@@ -43,7 +43,8 @@ pub(super) fn look(brep: &Brep, reach: f64, sewing: &mut Sewing) {
                 gap = gap.max(d);
             }
         }
-        if seen >= SEEN {
+        // What is near enough was left apart for another reason: more than two faces meet there.
+        if seen >= SEEN && gap > sewing.tolerance {
             sewing.facing += 1;
             sewing.facing_length += length;
             sewing.facing_gap = sewing.facing_gap.max(gap);

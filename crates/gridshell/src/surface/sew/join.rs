@@ -2,8 +2,9 @@
 
 use super::pair::Pairs;
 use super::split::{Pieces, Union};
-use crate::surface::Brep;
+use crate::math::digits::three;
 use crate::surface::brep::{BrepEdge, Coedge};
+use crate::surface::{Brep, Loss};
 use glam::DVec3;
 
 /// An edge whose ends became one place and that is no longer than so many tolerances is no edge any more.
@@ -20,6 +21,8 @@ pub(super) struct Lost {
     pub openings: usize,
     /// Faces, by number, that were narrower than the tolerance.
     pub faces: Vec<u32>,
+    /// Their area, at most, square metres.
+    pub area: f64,
 }
 
 /// What became of a piece.
@@ -181,6 +184,8 @@ fn clean(brep: &mut Brep, pairs: &Pairs, tolerance: f64) -> Lost {
             (loops - face.loops.len()).saturating_sub(usize::from(face.loops.is_empty()));
         if face.loops.is_empty() && loops > 0 {
             lost.faces.push(f as u32 + 1);
+            // All that was left of its boundary were edges of about the tolerance.
+            lost.area += (SHORT * tolerance).powi(2);
             continue;
         }
         brep.object_of.extend(objects.get(f));
@@ -191,28 +196,37 @@ fn clean(brep: &mut Brep, pairs: &Pairs, tolerance: f64) -> Lost {
 }
 
 impl Lost {
+    /// Faces that went, where some did.
+    pub fn loss(&self, tolerance: f64) -> Option<Loss> {
+        (!self.faces.is_empty()).then(|| Loss {
+            what: format!("face(s) {}", list(&self.faces)),
+            why: format!(
+                "smaller than the sewing tolerance of {} m; a smaller one (--sew) keeps them",
+                three(tolerance)
+            ),
+            faces: self.faces.len(),
+            area: Some(self.area),
+            whole: false,
+        })
+    }
+
     /// In words.
     pub fn told(&self, pairs: &Pairs, tolerance: f64) -> Vec<String> {
         let mut told = Vec::new();
         if self.edges > 0 {
             told.push(format!(
-                "{} edge(s) shorter than the sewing tolerance of {tolerance:.2e} m became points; a smaller one keeps \
+                "{} edge(s) shorter than the sewing tolerance of {} m became points; a smaller one keeps \
                  them",
-                self.edges
+                self.edges,
+                three(tolerance)
             ));
         }
         if self.openings > 0 {
             told.push(format!(
-                "{} opening(s) smaller than the sewing tolerance of {tolerance:.2e} m were closed; a smaller one \
+                "{} opening(s) smaller than the sewing tolerance of {} m were closed; a smaller one \
                  keeps them",
-                self.openings
-            ));
-        }
-        if !self.faces.is_empty() {
-            told.push(format!(
-                "face(s) {} are smaller than the sewing tolerance of {tolerance:.2e} m and left out; a smaller one \
-                 keeps them",
-                list(&self.faces)
+                self.openings,
+                three(tolerance)
             ));
         }
         if !pairs.twins.is_empty() {

@@ -16,6 +16,7 @@ mod split;
 use super::Brep;
 use super::seam;
 use crate::error::{Error, Result};
+use crate::math::digits::three;
 use naked::Naked;
 use serde::Serialize;
 
@@ -25,6 +26,8 @@ pub const SIZE_SHARE: f64 = 2e-5;
 const FILE_SHARE: f64 = 1e-3;
 /// No tolerance above this share of the model's size is accepted.
 const MOST_SHARE: f64 = 0.02;
+/// Gaps below this share of the model's size are rounding, and none.
+const ROUNDING: f64 = 1e-13;
 /// Naked edges with another within so many usual tolerances are told.
 const REACH: f64 = 32.0;
 
@@ -71,10 +74,12 @@ pub fn sew(brep: &mut Brep, tolerance: Option<f64>) -> Result<()> {
     let any = !pairs.joints.is_empty() || !pairs.twins.is_empty();
     if any {
         sewing.joints = pairs.joints.len();
-        sewing.largest_gap = pairs.joints.iter().map(|j| j.gap).fold(0.0, f64::max);
+        let gap = pairs.joints.iter().map(|j| j.gap).fold(0.0, f64::max);
+        sewing.largest_gap = below_rounding(gap, size);
         let lost = join::join(&mut bounded, &pieces, &pairs, tolerance);
         told.push(joined(&sewing, brep));
         told.extend(lost.told(&pairs, tolerance));
+        bounded.source.losses.extend(lost.loss(tolerance));
     }
     facing::look(&bounded, (REACH * usual).max(2.0 * tolerance), &mut sewing);
     if any {
@@ -104,30 +109,36 @@ fn check(given: f64, size: f64) -> Result<()> {
     Ok(())
 }
 
+/// A gap, or none where it is no more than the rounding of a model of this size.
+fn below_rounding(gap: f64, size: f64) -> f64 {
+    if gap <= ROUNDING * size { 0.0 } else { gap }
+}
+
 fn joined(sewing: &Sewing, brep: &Brep) -> String {
     let from = if sewing.tolerance == brep.tolerance { " of the file" } else { "" };
+    let (n, s) = (sewing.joints, plural(sewing.joints));
+    if sewing.largest_gap == 0.0 {
+        return format!("sewn: {n} joint{s} between faces whose edges coincide");
+    }
     format!(
-        "sewn: {} joint{} between faces without common edges, the largest gap {:.1e} m, at the tolerance{from} of \
-         {:.2e} m",
-        sewing.joints,
-        plural(sewing.joints),
-        sewing.largest_gap,
-        sewing.tolerance
+        "sewn: {n} joint{s} between faces without common edges, the largest gap {} m, at the tolerance{from} of {} m",
+        three(sewing.largest_gap),
+        three(sewing.tolerance)
     )
 }
 
 fn left(sewing: &Sewing) -> String {
     format!(
-        "not sewn: {} edge{} of {:.4} m together still face{} another up to {:.2e} m away, further than the tolerance \
-         of {:.2e} m; if they are to be joined, sew with {:.2e} m, but a tolerance also closes every slit and \
+        "not sewn: {} edge{} of {} m together still face{} another up to {} m away, further than the tolerance \
+         of {} m; if they are to be joined, sew with {} m, but a tolerance also closes every slit and \
          swallows every edge and face narrower than itself",
         sewing.facing,
         plural(sewing.facing),
-        sewing.facing_length,
+        three(sewing.facing_length),
         if sewing.facing == 1 { "s" } else { "" },
-        sewing.facing_gap,
-        sewing.tolerance,
-        1.1 * sewing.facing_gap
+        three(sewing.facing_gap),
+        three(sewing.tolerance),
+        three(1.1 * sewing.facing_gap)
     )
 }
 

@@ -67,7 +67,7 @@ fn a_gap_beyond_the_tolerance_stays_and_is_told_with_the_tolerance_that_closes_i
     let sewing = brep.sewing.unwrap();
     assert_eq!((sewing.joints, sewing.facing), (0, 2));
     assert!((sewing.facing_gap - 0.005).abs() < 1e-12 && (sewing.facing_length - 8.0).abs() < 1e-9);
-    assert!(brep.notes.iter().any(|n| n.contains("5.50e-3")), "{:?}", brep.notes);
+    assert!(brep.notes.iter().any(|n| n.contains("0.00550")), "{:?}", brep.notes);
     assert_eq!(surface(&brep).loops.len(), 2);
     let brep = sewn(faces(), Some(6e-3));
     let sewing = brep.sewing.unwrap();
