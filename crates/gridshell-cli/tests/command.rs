@@ -81,12 +81,10 @@ fn inputs_that_cannot_be_used_leave_with_3() {
     fs::write(folder.path().join("drawing.docx"), "no surface").expect("written");
     fs::write(folder.path().join("square.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
         .expect("written");
-    fs::write(folder.path().join("bad.toml"), "[pack]\ndrews = 3\n").expect("written");
     for args in [
         "generate great-cart",
         "generate broken.obj",
         "generate drawing.docx",
-        "generate hexagon --recipe bad.toml",
         "generate hexagon --recipe none.toml",
         "inspect none.step",
         "measure none.obj",

@@ -7,6 +7,8 @@ use crate::recipe::Recipe;
 use crate::run::Run;
 use crate::surface::{ChainPoint, SurfacePoint};
 use glam::DVec3;
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
 use serde::{Deserialize, Serialize};
 
 /// Name and version of the schema.
@@ -98,10 +100,15 @@ impl Document {
     /// The grid of a run on the surface at `reference`, supported at these nodes.
     pub fn of_run(run: &Run, reference: Reference, supports: Vec<u32>) -> Document {
         let grid = &run.grid;
+        let nodes = grid.xyz.iter().zip(0_u32..);
+        let nodes = RTree::bulk_load(
+            nodes.map(|(p, v)| GeomWithData::new(p.to_array(), v)).collect::<Vec<_>>(),
+        );
+        // Of nodes as near as each other the first.
         let anchor = |p: &[f64; 3]| {
-            let p = DVec3::from_array(*p);
-            let apart = |v: &usize| grid.xyz[*v].distance_squared(p);
-            (0..grid.xyz.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))).map(|v| v as u32)
+            let near = nodes.nearest_neighbor(*p)?;
+            let reach = DVec3::from(*near.geom()).distance_squared(DVec3::from(*p));
+            nodes.locate_within_distance(*p, reach).map(|n| n.data).min().or(Some(near.data))
         };
         Document {
             surface: Some(reference),

@@ -7,11 +7,15 @@
 
 use super::chain::{Segment, boundary_loops};
 use super::cut::Cutter;
+use super::thin::thinned;
 use super::track::Track;
 use super::{Chain, Surface, SurfacePoint, carrier::NONE};
 use crate::error::Result;
 use crate::math::trig;
 use glam::DVec3;
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+use std::collections::BTreeSet;
 
 /// Features shorter than this, over l0, have no room for a member.
 const SHORT: f64 = 0.5;
@@ -53,12 +57,25 @@ impl Surface {
         if !wanted.guides.is_empty() || !wanted.anchors.is_empty() {
             let mut cutter = Cutter::new(self, wanted.edge_length);
             for (i, guide) in wanted.guides.iter().enumerate() {
-                notes.extend(cutter.cut_guide(i, guide)?);
+                let (points, noise) = thinned(guide, wanted.edge_length);
+                if noise {
+                    let (n, m) = (guide.len(), points.len());
+                    notes.push(format!(
+                        "guide {} has {n} points, far nearer to each other than members are long: {m} of them are \
+                         followed",
+                        i + 1
+                    ));
+                }
+                notes.extend(cutter.cut_guide(i, &points)?);
             }
+            // An anchor given many times is one.
+            let mut known = BTreeSet::new();
             for (i, &anchor) in wanted.anchors.iter().enumerate() {
-                let (vertex, note) = cutter.put_anchor(i, anchor)?;
-                anchors.push(vertex);
-                notes.extend(note);
+                if known.insert(anchor.to_array().map(f64::to_bits)) {
+                    let (vertex, note) = cutter.put_anchor(i, anchor)?;
+                    anchors.push(vertex);
+                    notes.extend(note);
+                }
             }
             cutter.finish();
             let tracks = &self.tracks;
@@ -276,19 +293,20 @@ impl Surface {
             (0..=n).map(|i| point(chain, chain.length() * i as f64 / n as f64)).collect()
         };
         let features: Vec<Vec<DVec3>> = self.features.iter().map(samples).collect();
-        let loops: Vec<Vec<DVec3>> = self.loops.iter().map(samples).collect();
+        let on_features = Points::of(
+            features.iter().enumerate().flat_map(|(i, l)| l.iter().map(move |p| (*p, i))),
+        );
+        let on_loops = Points::of(self.loops.iter().flat_map(samples).map(|p| (p, 0)));
         let mut fixed: Vec<DVec3> = self.fixed.iter().map(|p| self.carrier.xyz(p)).collect();
         for chain in &self.loops {
             fixed.extend(chain.corners.iter().map(|&k| point(chain, chain.arc[k as usize])));
         }
-        let apart = |p: &DVec3| fixed.iter().all(|f| f.distance(*p) > MEETING * length);
-        let near =
-            |p: &DVec3, line: &Vec<DVec3>| line.iter().any(|q| q.distance(*p) < NEAR * length);
+        let at_fixed = Points::of(fixed.iter().enumerate().map(|(i, p)| (*p, i)));
         for (i, line) in features.iter().enumerate() {
-            for p in line.iter().filter(|p| apart(p)) {
-                let what = if features[i + 1..].iter().any(|other| near(p, other)) {
+            for p in line.iter().filter(|p| !at_fixed.near(**p, MEETING * length, |_| true)) {
+                let what = if on_features.near(*p, NEAR * length, |j| j > i) {
                     "another feature"
-                } else if loops.iter().any(|other| near(p, other)) {
+                } else if on_loops.near(*p, NEAR * length, |_| true) {
                     "the boundary"
                 } else {
                     continue;
@@ -301,7 +319,7 @@ impl Surface {
             }
         }
         for (i, p) in fixed.iter().enumerate() {
-            if fixed[i + 1..].iter().any(|q| q.distance(*p) < NEAR * length) {
+            if at_fixed.near(*p, NEAR * length, |j| j > i) {
                 notes.push(format!(
                     "fixed nodes are closer than half a member near ({:.3}, {:.3}, {:.3})",
                     p.x, p.y, p.z
@@ -314,6 +332,22 @@ impl Surface {
             notes.push(format!("and {more} more places where features leave too little room"));
         }
         notes
+    }
+}
+
+/// Numbered points that are asked for near places.
+struct Points(RTree<GeomWithData<[f64; 3], usize>>);
+
+impl Points {
+    fn of(points: impl Iterator<Item = (DVec3, usize)>) -> Points {
+        let points = points.map(|(p, i)| GeomWithData::new(p.to_array(), i));
+        Points(RTree::bulk_load(points.collect()))
+    }
+
+    /// Whether one whose number is `wanted` is nearer to `p` than `reach`.
+    fn near(&self, p: DVec3, reach: f64, wanted: impl Fn(usize) -> bool) -> bool {
+        let around = self.0.locate_within_distance(p.to_array(), reach * reach);
+        around.into_iter().any(|q| wanted(q.data))
     }
 }
 

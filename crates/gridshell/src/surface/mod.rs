@@ -48,6 +48,7 @@ pub mod smooth;
 pub mod source;
 mod stretch;
 pub mod tessellate;
+mod thin;
 mod track;
 mod trim;
 mod weave;
