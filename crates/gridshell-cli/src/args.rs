@@ -14,7 +14,8 @@ use std::path::PathBuf;
     version,
     arg_required_else_help = true,
     after_help = "Exit codes: 0 done, 2 usage, 3 input that cannot be used, 4 no valid grid, \
-                  5 stopped by a limit or a signal (the best grid so far is written)."
+                  5 stopped by a limit or a signal (the best grid so far is written), \
+                  6 done, but parts of the surface have no grid (`--part all`)."
 )]
 pub struct Args {
     #[command(subcommand)]

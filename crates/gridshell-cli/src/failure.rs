@@ -9,6 +9,8 @@ pub const FAILED: u8 = 1;
 pub const USAGE: u8 = 2;
 const INPUT: u8 = 3;
 const NO_GRID: u8 = 4;
+/// Exit code of a run with parts of the surface that have no grid.
+pub const PARTIAL: u8 = 6;
 /// Exit code of a run that a limit or a signal ended.
 pub const STOPPED: u8 = 5;
 

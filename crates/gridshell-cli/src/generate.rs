@@ -66,7 +66,14 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
     } else {
         say::result(&(table::run(&run) + &wrote + "\n"))?;
     }
-    Ok(if run.stopped { Outcome::Stopped } else { Outcome::Done })
+    for part in &run.failed {
+        say::note(&format!("warning: {}", part.told()));
+    }
+    Ok(match () {
+        () if run.stopped => Outcome::Stopped,
+        () if !run.failed.is_empty() => Outcome::Partial,
+        () => Outcome::Done,
+    })
 }
 
 /// The run to be repeated, where the surface is a grid file of one.

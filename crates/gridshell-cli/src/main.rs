@@ -34,6 +34,8 @@ use std::process::ExitCode;
 pub enum Outcome {
     /// All done.
     Done,
+    /// Done, but for parts of the surface that have no grid.
+    Partial,
     /// Stopped by a limit or a signal; the best so far was written.
     Stopped,
 }
@@ -51,6 +53,7 @@ fn main() -> ExitCode {
     let result = threads::start(asked).and_then(|()| run(&args.command));
     match result {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
+        Ok(Outcome::Partial) => ExitCode::from(failure::PARTIAL),
         Ok(Outcome::Stopped) => ExitCode::from(failure::STOPPED),
         Err(Failure { code, message }) => {
             say::note(&format!("gridshell: {message}"));

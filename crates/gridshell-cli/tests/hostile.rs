@@ -51,25 +51,30 @@ fn devices_and_pipes_are_refused_wherever_a_file_is_read() {
     let folder = folder();
     let made = Command::new("mkfifo").arg("pipe").current_dir(folder.path()).status();
     assert!(made.expect("mkfifo is there").success());
-    for name in ["obj", "ply", "stl", "off", "glb", "json", "step", "igs", "3dm", "gridshell", "toml"] {
+    for name in
+        ["obj", "ply", "stl", "off", "glb", "json", "step", "igs", "3dm", "gridshell", "toml"]
+    {
         symlink("/dev/zero", folder.path().join(format!("zero.{name}"))).expect("room");
         symlink("pipe", folder.path().join(format!("pipe.{name}"))).expect("room");
     }
     for device in ["zero", "pipe"] {
-        let mut all: Vec<String> = ["obj", "ply", "stl", "off", "glb", "json", "step", "igs", "3dm"]
-            .map(|end| format!("inspect {device}.{end}"))
-            .to_vec();
-        all.extend(
-            ["guides", "anchors", "size", "direction", "supports", "recipe"]
-                .map(|option| format!("generate hexagon -l 1 --effort draft --{option} {device}.toml")),
-        );
+        let mut all: Vec<String> =
+            ["obj", "ply", "stl", "off", "glb", "json", "step", "igs", "3dm"]
+                .map(|end| format!("inspect {device}.{end}"))
+                .to_vec();
+        all.extend(["guides", "anchors", "size", "direction", "supports", "recipe"].map(
+            |option| format!("generate hexagon -l 1 --effort draft --{option} {device}.toml"),
+        ));
         all.push(format!("generate {device}.gridshell"));
         all.push(format!("measure {device}.gridshell"));
         all.push(format!("edit {device}.obj --log {device}.json"));
         for args in all {
             let (code, said) = ends(folder.path(), &args);
             assert_eq!(code, 3, "{args}: {said}");
-            assert!(said.contains("a device or a pipe") || said.contains("without Rhino"), "{args}: {said}");
+            assert!(
+                said.contains("a device or a pipe") || said.contains("without Rhino"),
+                "{args}: {said}"
+            );
         }
     }
 }
@@ -88,7 +93,12 @@ fn a_grid_file_is_not_followed_out_of_its_folder_unless_asked() {
         let laid = format!("generate {surface} -l 1 --effort draft -o a.gridshell");
         assert_eq!(gridshell(&inner, &laid).status.code(), Some(0), "{surface}");
         let run = gridshell(&inner, "generate a.gridshell -o b.obj");
-        assert_eq!(run.status.code(), Some(if follows { 0 } else { 3 }), "{surface}: {}", stderr(&run));
+        assert_eq!(
+            run.status.code(),
+            Some(if follows { 0 } else { 3 }),
+            "{surface}: {}",
+            stderr(&run)
+        );
         assert_eq!(stderr(&run).contains("--follow"), !follows, "{surface}");
         let measured = stderr(&gridshell(&inner, "measure a.gridshell"));
         assert_eq!(measured.contains("--follow"), !follows, "{surface}: {measured}");
@@ -174,14 +184,18 @@ fn a_file_that_may_not_grow_is_an_error_and_no_signal() {
 #[test]
 fn every_output_that_fails_is_named_the_report_too() {
     let folder = folder();
-    let args = "generate hexagon -n 400 --effort draft -o a.ifc -o a.saf.xlsx -o a.csv --report a.html";
+    let args =
+        "generate hexagon -n 400 --effort draft -o a.ifc -o a.saf.xlsx -o a.csv --report a.html";
     let run = shell(folder.path(), &format!("ulimit -f 4; exec \"$0\" {args}"));
     let said = stderr(&run);
     assert_eq!(run.status.code(), Some(1), "{said}");
     for file in ["a.ifc", "a.html"] {
         assert!(said.contains(file), "{file}: {said}");
     }
-    let run = shell(folder.path(), "ulimit -f 4; exec \"$0\" inspect dome --picture a.png --picture b.png");
+    let run = shell(
+        folder.path(),
+        "ulimit -f 4; exec \"$0\" inspect dome --picture a.png --picture b.png",
+    );
     assert!(stderr(&run).contains("a.png") && stderr(&run).contains("b.png"), "{}", stderr(&run));
 }
 
@@ -197,7 +211,8 @@ fn too_many_threads_are_told_and_cut_down() {
         assert_eq!(run.status.code(), Some(0), "{line}: {}", stderr(&run));
         assert!(stderr(&run).contains("are used"), "{line}: {}", stderr(&run));
     }
-    let run = gridshell(folder.path(), "generate hexagon -n 60 --effort draft --threads 2 -o a.obj");
+    let run =
+        gridshell(folder.path(), "generate hexagon -n 60 --effort draft --threads 2 -o a.obj");
     assert!(!stderr(&run).contains("threads"), "{}", stderr(&run));
 }
 
@@ -209,8 +224,8 @@ fn guides_of_very_many_points_take_no_longer_than_others() {
         let mut text = String::new();
         for k in 0..n {
             let t = f64::from(k) / f64::from(n - 1);
-            let (angle, r) = (9.0 * t, 0.6 + 2.4 * t);
-            text += &format!("{} {} 0\n", r * angle.cos(), r * angle.sin());
+            let x = 5.0 * t - 2.5;
+            text += &format!("{x} {} 0\n", 1.5 * (1.2 * x).sin());
         }
         fs::write(folder.path().join("guide.txt"), text).expect("written");
         let args = format!("generate hexagon -l 0.5 --effort draft --guides guide.txt -o {n}.obj");
@@ -249,7 +264,11 @@ fn what_is_replaced_keeps_its_mode_and_links_and_devices_are_left_as_they_are() 
         fs::write(at(name), "old").expect("room");
         fs::set_permissions(at(name), PermissionsExt::from_mode(mode)).expect("own file");
         assert_eq!(convert(name).status.code(), Some(0), "{name}");
-        assert_eq!(fs::metadata(at(name)).expect("there").permissions().mode() & 0o777, mode, "{name}");
+        assert_eq!(
+            fs::metadata(at(name)).expect("there").permissions().mode() & 0o777,
+            mode,
+            "{name}"
+        );
         assert_ne!(fs::read(at(name)).expect("readable"), b"old", "{name}");
     }
     symlink("a.ply", at("link.ply")).expect("room");

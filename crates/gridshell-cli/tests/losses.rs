@@ -109,34 +109,53 @@ fn folder() -> (TempDir, [(&'static str, &'static str); 3]) {
     {
         fs::write(folder.path().join(name), text).expect("written");
     }
-    (folder, [("curved.obj", "curved surface"), ("two.json", "mesh porch"), ("broken.step", "face #406")])
+    (
+        folder,
+        [
+            ("curved.obj", "curved surface"),
+            ("two.json", "mesh porch"),
+            ("broken.step", "face #406"),
+        ],
+    )
 }
 
 #[test]
 fn no_grid_is_laid_on_a_part_of_a_surface_unless_that_is_accepted() {
     let (folder, files) = folder();
     for (file, what) in files {
-        let run = gridshell(folder.path(), &format!("generate {file} -l 1 --effort draft -o a.obj"));
+        let run =
+            gridshell(folder.path(), &format!("generate {file} -l 1 --effort draft -o a.obj"));
         let said = stderr(&run);
         assert_eq!(run.status.code(), Some(3), "{file}: {said}");
-        assert!(said.contains(&format!("left out {what}")) && said.contains("--accept-losses"), "{said}");
+        assert!(
+            said.contains(&format!("left out {what}")) && said.contains("--accept-losses"),
+            "{said}"
+        );
         assert!(run.stdout.is_empty() && !folder.path().join("a.obj").exists(), "{file}");
-        let args = format!("generate {file} -l 1 --effort draft --accept-losses --json -o {file}.gridshell");
+        let args = format!(
+            "generate {file} -l 1 --effort draft --accept-losses --json -o {file}.gridshell"
+        );
         let run = gridshell(folder.path(), &args);
         let said = stderr(&run);
         assert_eq!(run.status.code(), Some(0), "{file}: {said}");
         assert!(said.contains(&format!("warning: left out {what}")), "{file}: {said}");
         let document: Value = serde_json::from_slice(&run.stdout).expect("one document");
         let losses = document["surface"]["losses"].as_array().expect("a list");
-        assert!(losses.iter().any(|l| l["what"].as_str().expect("a text").contains(what)), "{losses:?}");
+        assert!(
+            losses.iter().any(|l| l["what"].as_str().expect("a text").contains(what)),
+            "{losses:?}"
+        );
     }
 }
 
 #[test]
 fn a_recipe_may_accept_what_is_missing() {
     let (folder, files) = folder();
-    fs::write(folder.path().join("r.toml"), "accept_losses = true\nedge_length = 1.0\neffort = \"draft\"\n")
-        .expect("written");
+    fs::write(
+        folder.path().join("r.toml"),
+        "accept_losses = true\nedge_length = 1.0\neffort = \"draft\"\n",
+    )
+    .expect("written");
     for (file, _) in files {
         let run = gridshell(folder.path(), &format!("generate {file} --recipe r.toml -o a.obj"));
         assert_eq!(run.status.code(), Some(0), "{file}: {}", stderr(&run));
@@ -177,7 +196,11 @@ fn a_piece_below_a_hundredth_of_the_area_is_told_and_no_more() {
         // A scrap far away, a thousandth of the whole.
         let far = 1000.0 * side;
         let text = plate(5, side)
-            + &format!("v {far} 0 0\nv {} 0 0\nv {far} {} 0\nf 37 38 39\n", far + 0.2 * side, far * 2e-4);
+            + &format!(
+                "v {far} 0 0\nv {} 0 0\nv {far} {} 0\nf 37 38 39\n",
+                far + 0.2 * side,
+                far * 2e-4
+            );
         fs::write(folder.path().join(name), text).expect("written");
         let args = format!("generate {name} -n 100 --effort draft -o a.obj");
         let run = gridshell(folder.path(), &args);
@@ -191,7 +214,9 @@ fn a_piece_below_a_hundredth_of_the_area_is_told_and_no_more() {
 #[test]
 fn a_grid_that_was_written_here_opens_without_a_word_on_its_own_lines_and_points() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    for (surface, extension) in [("hexagon", "obj"), ("dome", "obj"), ("barrel", "ply"), ("saddle", "glb")] {
+    for (surface, extension) in
+        [("hexagon", "obj"), ("dome", "obj"), ("barrel", "ply"), ("saddle", "glb")]
+    {
         let grid = format!("{surface}.{extension}");
         let laid = format!("generate {surface} -n 80 --effort draft -o {grid}");
         assert_eq!(gridshell(folder.path(), &laid).status.code(), Some(0));

@@ -17,6 +17,9 @@ pub struct Recipe {
     pub nodes: Option<usize>,
     /// Which parts of a model of several separate ones.
     pub part: Parts,
+    /// Of all parts, those that are left out, by their numbers; a run adds the ones that no grid could be laid on, so that
+    /// it is repeated without them.
+    pub skip_parts: Vec<usize>,
     /// Whether a grid is laid although a part of the file that counts could not be read
     /// ([`Source::losses`](crate::surface::Source::losses)).
     pub accept_losses: bool,
@@ -435,6 +438,7 @@ impl Default for Recipe {
         Recipe {
             edge_length: None,
             nodes: None,
+            skip_parts: Vec::new(),
             accept_losses: false,
             size: Size::Uniform,
             direction: Direction::Any,

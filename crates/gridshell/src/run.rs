@@ -38,6 +38,9 @@ pub struct Run {
     /// The pieces of the grid, where it has one on each of several parts; else empty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartReport>,
+    /// The parts that have no grid because none could be laid there; else empty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub failed: Vec<PartFailure>,
     /// The candidates, the one that was kept first and the others by how far they came.
     pub candidates: Vec<CandidateReport>,
     /// The stages in their order.
@@ -76,6 +79,22 @@ pub struct PartReport {
     /// The symmetry that its grid has, if one was asked for and found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub symmetry: Option<SymmetryReport>,
+}
+
+/// A part of a model that no grid could be laid on, while others have one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PartFailure {
+    /// The part, counted from 1.
+    pub number: usize,
+    /// What is wrong with it.
+    pub why: String,
+}
+
+impl PartFailure {
+    /// As a warning.
+    pub fn told(&self) -> String {
+        format!("part {} has no grid: {}", self.number, self.why)
+    }
 }
 
 /// One part of a model: faces that hang together.

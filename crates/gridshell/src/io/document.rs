@@ -106,9 +106,8 @@ impl Document {
         );
         // Of nodes as near as each other the first.
         let anchor = |p: &[f64; 3]| {
-            let near = nodes.nearest_neighbor(*p)?;
-            let reach = DVec3::from(*near.geom()).distance_squared(DVec3::from(*p));
-            nodes.locate_within_distance(*p, reach).map(|n| n.data).min().or(Some(near.data))
+            let (_, reach) = nodes.nearest_neighbor_with_distance_2(*p)?;
+            nodes.locate_within_distance(*p, reach).map(|n| n.data).min()
         };
         Document {
             surface: Some(reference),

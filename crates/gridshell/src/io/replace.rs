@@ -145,7 +145,7 @@ impl<'a> Written<'a> {
     /// Written and brought to the disk; cleared away where that fails.
     fn new(path: &'a Path, bytes: &[u8]) -> Result<Written<'a>> {
         let target = Target::of(path)?;
-        let write = || {
+        let write = || -> std::io::Result<NamedTempFile> {
             let mut file = target.new_file()?;
             file.as_file_mut().write_all(bytes)?;
             if let Some(old) = &target.old {

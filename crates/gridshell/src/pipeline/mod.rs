@@ -190,6 +190,7 @@ fn finish(
         recipe: recipe.clone(),
         symmetry: None,
         parts: Vec::new(),
+        failed: Vec::new(),
         candidates,
         stages,
         irregular: irregular_nodes(&grid),

@@ -9,7 +9,7 @@ use crate::grid::{Grid, Place};
 use crate::job::Job;
 use crate::mesh::Mesh;
 use crate::recipe::{Parts, Recipe, Size};
-use crate::run::{PartReport, PartSummary, Run, StageReport, SurfaceSummary};
+use crate::run::{PartFailure, PartReport, PartSummary, Run, StageReport, SurfaceSummary};
 use crate::schedule::{Schedule, Tolerances};
 use crate::stages::measure::{irregular_nodes, measure};
 use crate::surface::parts::Offset;
@@ -72,7 +72,7 @@ pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
         Parts::All if parts.len() > MOST_LAID => Err(too_many(&parts)),
         Parts::All if parts.len() > 1 => {
             let pieces = Pieces::new(model, &parts, recipe)?;
-            let surfaces = pieces.each(|part, recipe| Ok(whole(part, recipe)?.0))?;
+            let surfaces = pieces.each(|part, recipe| Ok(whole(part, recipe)?.0))?.done;
             Ok((Surface::side_by_side(surfaces).0, pieces.length))
         }
         Parts::One if parts.len() > 1 => Err(Error::Surface(choice(model, &parts))),
@@ -113,29 +113,61 @@ fn too_many(parts: &[Vec<u32>]) -> Error {
 /// One grid with a piece on each part.
 fn all(model: &Model, parts: &[Vec<u32>], recipe: &Recipe, job: &Job) -> Result<Run> {
     let pieces = Pieces::new(model, parts, recipe)?;
-    let laid = pieces.each(|part, recipe| single(part, recipe, job))?;
-    let (runs, surfaces) = laid.into_iter().unzip();
+    let Done { numbers, done, failed } = pieces.each(|part, recipe| single(part, recipe, job))?;
+    let (runs, surfaces) = done.into_iter().unzip();
     let (surface, offsets) = Surface::side_by_side(surfaces);
-    join(model, &surface, &offsets, runs, recipe, pieces.length, job)
+    let mut run = join(model, &surface, &offsets, &numbers, runs, recipe, pieces.length, job)?;
+    run.warnings.extend(failed.iter().map(PartFailure::told));
+    let skipped = &mut run.recipe.skip_parts;
+    skipped.extend(failed.iter().map(|f| f.number));
+    skipped.sort_unstable();
+    skipped.dedup();
+    Ok(Run { failed, ..run })
 }
 
 /// The parts of a model with a recipe for each.
 struct Pieces {
+    /// Those that are surfaces, with their numbers.
     models: Vec<Model>,
+    numbers: Vec<usize>,
     recipes: Vec<Recipe>,
     /// Wanted member length, metres.
     length: f64,
+    /// Those that are none.
+    failed: Vec<PartFailure>,
+    /// Those that are to be left out.
+    skipped: Vec<usize>,
+}
+
+/// What was done for the parts that it could be done for.
+struct Done<T> {
+    numbers: Vec<usize>,
+    done: Vec<T>,
+    failed: Vec<PartFailure>,
 }
 
 impl Pieces {
     fn new(model: &Model, parts: &[Vec<u32>], recipe: &Recipe) -> Result<Pieces> {
-        let models: Vec<Model> = parts.iter().map(|faces| model.of_faces(faces)).collect();
         let sampling = rough(model.size(), recipe);
-        let surfaces = models.iter().enumerate();
-        let surfaces =
-            surfaces.map(|(k, part)| part.surface(&sampling).map_err(|e| of_part(k + 1, e)));
-        let side_by_side = Surface::side_by_side(surfaces.collect::<Result<_>>()?).0;
-        let Scale { length, .. } = scale_on(side_by_side, recipe)?;
+        let (mut models, mut numbers, mut surfaces) = (Vec::new(), Vec::new(), Vec::new());
+        let mut failed = Vec::new();
+        for (number, faces) in (1..).zip(parts) {
+            let part = model.of_faces(faces);
+            match part.surface(&sampling) {
+                Ok(surface) => surfaces.push(surface),
+                Err(error) => {
+                    failed.push(failure(number, error)?);
+                    continue;
+                }
+            }
+            models.push(part);
+            numbers.push(number);
+        }
+        if surfaces.is_empty() {
+            return Err(none(&failed));
+        }
+        let areas: Vec<f64> = surfaces.iter().map(|s| s.area).collect();
+        let Scale { length, .. } = scale_on(Surface::side_by_side(surfaces).0, recipe)?;
         let mut part_recipe = Recipe { part: Parts::One, ..recipe.clone() };
         // Lengths at points in metres say the length of each part themselves.
         let given = recipe.edge_length.is_some() || recipe.nodes.is_some();
@@ -144,14 +176,60 @@ impl Pieces {
         }
         let owners = Owners::new(&models, recipe, length)?;
         let recipes = (0..models.len()).map(|k| owners.recipe(k, &part_recipe)).collect();
-        Ok(Pieces { models, recipes, length })
+        let mut skipped = recipe.skip_parts.clone();
+        if part_recipe.edge_length.is_some() {
+            for (number, area) in numbers.iter().zip(areas) {
+                // A scrap beside a roof must not keep the roof from its grid.
+                if let Err(e) = Recipe::check_edge_length(length, area) {
+                    failed.push(PartFailure { number: *number, why: e.to_string() });
+                    skipped.push(*number);
+                }
+            }
+        }
+        Ok(Pieces { models, numbers, recipes, length, failed, skipped })
     }
 
-    /// Something done for each part in turn; errors tell the part.
-    fn each<T>(&self, deed: impl Fn(&Model, &Recipe) -> Result<T>) -> Result<Vec<T>> {
-        let pieces = self.models.iter().zip(&self.recipes).enumerate();
-        pieces.map(|(k, (part, r))| deed(part, r).map_err(|e| of_part(k + 1, e))).collect()
+    /// Something done for each part in turn. What is wrong with one does not keep it from the others, unless what was
+    /// asked for is at fault: then the error tells the part.
+    fn each<T>(&self, deed: impl Fn(&Model, &Recipe) -> Result<T>) -> Result<Done<T>> {
+        let (mut numbers, mut done, mut failed) = (Vec::new(), Vec::new(), self.failed.clone());
+        for ((part, recipe), &number) in self.models.iter().zip(&self.recipes).zip(&self.numbers) {
+            if self.skipped.contains(&number) {
+                continue;
+            }
+            let fixed = !recipe.guides.is_empty() || !recipe.anchors.is_empty();
+            match deed(part, recipe) {
+                Ok(one) => {
+                    numbers.push(number);
+                    done.push(one);
+                }
+                Err(error) if fixed => return Err(of_part(number, error)),
+                Err(error) => failed.push(failure(number, error)?),
+            }
+        }
+        failed.sort_by_key(|f| f.number);
+        // What was left out as asked is no failure.
+        failed.dedup_by_key(|f| f.number);
+        if done.is_empty() { Err(none(&failed)) } else { Ok(Done { numbers, done, failed }) }
     }
+}
+
+/// What is wrong with a part, where the part itself is at fault.
+fn failure(number: usize, error: Error) -> Result<PartFailure> {
+    match error {
+        Error::Surface(_) | Error::NoGrid { .. } => {
+            Ok(PartFailure { number, why: error.to_string() })
+        }
+        error => Err(of_part(number, error)),
+    }
+}
+
+fn none(failed: &[PartFailure]) -> Error {
+    let told: Vec<String> = failed.iter().take(MOST_TOLD).map(PartFailure::told).collect();
+    if told.is_empty() {
+        return Error::Option("all parts are to be left out (skip_parts): leave one".into());
+    }
+    Error::Surface(told.join("; "))
 }
 
 /// The same error, telling the part.
@@ -208,10 +286,12 @@ impl Owners {
     }
 }
 
+#[expect(clippy::too_many_arguments, reason = "the parts of a run, gathered once")]
 fn join(
     model: &Model,
     surface: &Surface,
     offsets: &[Offset],
+    numbers: &[usize],
     runs: Vec<Run>,
     recipe: &Recipe,
     length: f64,
@@ -221,11 +301,12 @@ fn join(
     let grid = side_by_side(&grids, offsets)?;
     let quality = measure(&grid, surface, length, &recipe.measure);
     check(surface, &grid, &quality, length)?;
-    let stages = (0..runs[0].stages.len()).map(|s| stage(s, &runs, surface, offsets, length));
+    let stages =
+        (0..runs[0].stages.len()).map(|s| stage(s, numbers, &runs, surface, offsets, length));
     let stages = stages.collect::<Result<Vec<_>>>()?;
     let (mut parts, mut candidates, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
     let mut first_node = 0;
-    for (number, run) in (1..).zip(&runs) {
+    for (&number, run) in numbers.iter().zip(&runs) {
         let nodes = run.grid.xyz.len();
         parts.push(PartReport {
             number,
@@ -268,6 +349,7 @@ fn join(
 /// Stage `s` of all parts as one.
 fn stage(
     s: usize,
+    numbers: &[usize],
     runs: &[Run],
     surface: &Surface,
     offsets: &[Offset],
@@ -280,7 +362,7 @@ fn stage(
         None => None,
     };
     let options = &runs[0].recipe.measure;
-    let notes = (1..).zip(&stages).flat_map(|(number, stage)| {
+    let notes = numbers.iter().zip(&stages).flat_map(|(number, stage)| {
         stage.notes.iter().map(move |note| format!("part {number}: {note}"))
     });
     Ok(StageReport {

@@ -346,8 +346,7 @@ impl Points {
 
     /// Whether one whose number is `wanted` is nearer to `p` than `reach`.
     fn near(&self, p: DVec3, reach: f64, wanted: impl Fn(usize) -> bool) -> bool {
-        let around = self.0.locate_within_distance(p.to_array(), reach * reach);
-        around.into_iter().any(|q| wanted(q.data))
+        self.0.locate_within_distance(p.to_array(), reach * reach).any(|q| wanted(q.data))
     }
 }
 

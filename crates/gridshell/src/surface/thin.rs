@@ -80,12 +80,13 @@ fn off(p: DVec3, a: DVec3, b: DVec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::trig::{cos, sin};
 
     fn spiral(n: usize, noise: f64) -> Vec<DVec3> {
         let mut rng = fastrand::Rng::with_seed(3);
         let at = |k: usize| {
             let t = k as f64 / (n - 1) as f64;
-            let (s, c) = (libm::sin(12.0 * t), libm::cos(12.0 * t));
+            let (s, c) = (sin(12.0 * t), cos(12.0 * t));
             DVec3::new(c, s, 0.0) * (1.0 + 4.0 * t)
         };
         let mut shaken = || DVec3::new(rng.f64() - 0.5, rng.f64() - 0.5, 0.0) * noise;

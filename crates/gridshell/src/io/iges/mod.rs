@@ -84,15 +84,15 @@ impl File<'_> {
         self.notes.borrow_mut().push(note);
     }
 
-    /// Keep in mind that `entry` could not be used; what is fatal stays an error.
+    /// Keep in mind that an entity of this kind and number could not be used; what is fatal stays an error.
     fn or_lose(
         &self,
-        entry: &Entry,
+        (kind, number): (u32, u32),
         result: std::result::Result<(), Fault>,
     ) -> std::result::Result<(), Fault> {
         match result {
             Err(fault) if !fault.fatal => {
-                let what = match entry.kind {
+                let what = match kind {
                     144 => "trimmed surface",
                     143 => "bounded surface",
                     186 => "solid",
@@ -101,9 +101,9 @@ impl File<'_> {
                     408 => "subfigure",
                     _ => "surface",
                 };
-                let whole = matches!(entry.kind, 186 | 514 | 408);
+                let whole = matches!(kind, 186 | 514 | 408);
                 self.losses.borrow_mut().push(Loss {
-                    what: format!("{what} D{}", entry.number),
+                    what: format!("{what} D{number}"),
                     why: format!("{}: {}", fault.place, fault.what),
                     faces: usize::from(!whole),
                     area: None,
@@ -145,7 +145,7 @@ fn parse(bytes: &[u8]) -> std::result::Result<Brep, Fault> {
     let directory = Directory::new(&records, global.marks)?;
     let limit =
         WORK + WORK_OF_ENTITY * directory.entries.len() + WORK_OF_RECORD * records.parameters.len();
-    let (notes, losses) = Default::default();
+    let (notes, losses) = (RefCell::default(), RefCell::default());
     let file = File { directory, spent: Cell::new(0), limit, notes, losses };
     if global.unit_guessed {
         file.note("the file names no unit of length: taken as millimetres".into());

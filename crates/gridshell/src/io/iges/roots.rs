@@ -29,7 +29,7 @@ impl File<'_> {
                 orphans += 1;
             } else {
                 let added = self.add(&mut found, &mut shared, entry, 0);
-                self.or_lose(entry, added)?;
+                self.or_lose((entry.kind, entry.number), added)?;
             }
         }
         if blank > 0 {
@@ -117,7 +117,7 @@ impl File<'_> {
                 continue;
             }
             let added = self.add(&mut part, &mut shared, &member, level + 1);
-            self.or_lose(&member, added)?;
+            self.or_lose((member.kind, member.number), added)?;
         }
         if brep.faces.len() + part.faces.len() > MOST_FACES {
             return Err(Fault {

@@ -47,14 +47,14 @@ impl File<'_> {
             let face = match self.known(number) {
                 Ok(face) => face,
                 Err(missing) => {
-                    self.or_lose(&Entry { number, kind: 510, ..*entry }, Err(missing))?;
+                    self.or_lose((510, number), Err(missing))?;
                     continue;
                 }
             };
             let added = self
                 .spend(&face, VISIT)
                 .and_then(|()| self.shell_face(brep, shared, &face, reversed));
-            self.or_lose(&face, added)?;
+            self.or_lose((face.kind, face.number), added)?;
         }
         Ok(())
     }
