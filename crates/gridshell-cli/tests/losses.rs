@@ -224,3 +224,29 @@ fn a_grid_that_was_written_here_opens_without_a_word_on_its_own_lines_and_points
         assert!(!said.contains("skipped") && !said.contains("left out"), "{grid}: {said}");
     }
 }
+
+#[test]
+fn a_part_that_is_at_fault_is_named_and_the_others_have_their_grids() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    // A scrap beside the roof: one triangle far smaller than a member, in each of the formats.
+    let scrap = |side: f64| {
+        let (a, b) = (40.0, 40.0 + side);
+        format!("v {a} 0 0\nv {b} 0 0\nv {a} {side} 0\nf 26 27 28\n")
+    };
+    for (name, side) in [("tiny.obj", 0.2), ("small.obj", 0.4), ("speck.obj", 0.05)] {
+        fs::write(folder.path().join(name), plate(4, 2.0) + &scrap(side)).expect("written");
+        let args = format!("generate {name} -l 1 --part all --effort draft -o a.gridshell --json");
+        let run = gridshell(folder.path(), &args);
+        let said = stderr(&run);
+        assert_eq!(run.status.code(), Some(6), "{name}: {said}");
+        assert!(said.contains("warning: part 2 has no grid"), "{name}: {said}");
+        let document: Value = serde_json::from_slice(&run.stdout).expect("one document");
+        assert_eq!(document["failed"][0]["number"], 2);
+        assert_eq!(document["parts"].as_array().expect("a list").len(), 1);
+        // Repeated, it is left out as the recipe says: the same grid, and nothing that failed.
+        let again = gridshell(folder.path(), "generate a.gridshell -o b.gridshell");
+        assert_eq!(again.status.code(), Some(0), "{name}: {}", stderr(&again));
+        let read = |name: &str| fs::read(folder.path().join(name)).expect("written");
+        assert!(read("a.gridshell") == read("b.gridshell"), "{name}");
+    }
+}
