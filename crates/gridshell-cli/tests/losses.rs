@@ -230,7 +230,7 @@ fn a_part_that_is_at_fault_is_named_and_the_others_have_their_grids() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     // A scrap beside the roof: one triangle far smaller than a member, in each of the formats.
     let scrap = |side: f64| {
-        let (a, b) = (40.0, 40.0 + side);
+        let (a, b) = (9.0, 9.0 + side);
         format!("v {a} 0 0\nv {b} 0 0\nv {a} {side} 0\nf 26 27 28\n")
     };
     for (name, side) in [("tiny.obj", 0.2), ("small.obj", 0.4), ("speck.obj", 0.05)] {

@@ -117,6 +117,8 @@ fn all(model: &Model, parts: &[Vec<u32>], recipe: &Recipe, job: &Job) -> Result<
     let (runs, surfaces) = done.into_iter().unzip();
     let (surface, offsets) = Surface::side_by_side(surfaces);
     let mut run = join(model, &surface, &offsets, &numbers, runs, recipe, pieces.length, job)?;
+    let asked = recipe.skip_parts.iter();
+    run.warnings.extend(asked.map(|n| format!("part {n} is left out, as the recipe says")));
     run.warnings.extend(failed.iter().map(PartFailure::told));
     let skipped = &mut run.recipe.skip_parts;
     skipped.extend(failed.iter().map(|f| f.number));
@@ -155,6 +157,7 @@ impl Pieces {
             let part = model.of_faces(faces);
             match part.surface(&sampling) {
                 Ok(surface) => surfaces.push(surface),
+                Err(_) if recipe.skip_parts.contains(&number) => continue,
                 Err(error) => {
                     failed.push(failure(number, error)?);
                     continue;
@@ -179,6 +182,9 @@ impl Pieces {
         let mut skipped = recipe.skip_parts.clone();
         if part_recipe.edge_length.is_some() {
             for (number, area) in numbers.iter().zip(areas) {
+                if skipped.contains(number) {
+                    continue;
+                }
                 // A scrap beside a roof must not keep the roof from its grid.
                 if let Err(e) = Recipe::check_edge_length(length, area) {
                     failed.push(PartFailure { number: *number, why: e.to_string() });
@@ -208,8 +214,6 @@ impl Pieces {
             }
         }
         failed.sort_by_key(|f| f.number);
-        // What was left out as asked is no failure.
-        failed.dedup_by_key(|f| f.number);
         if done.is_empty() { Err(none(&failed)) } else { Ok(Done { numbers, done, failed }) }
     }
 }
