@@ -6,6 +6,7 @@
 //! What cannot be read is left out and noted. Triangles are read where there is nothing exact.
 
 mod axes;
+mod dropped;
 mod envelope;
 mod facets;
 mod mend;
@@ -80,10 +81,9 @@ fn parse(bytes: Vec<u8>) -> std::result::Result<Found, (String, String)> {
     }
     reading.everything(&scene)?;
     let mut brep = reading.brep;
-    note_some(
-        &mut brep.notes,
-        report.dropped.iter().map(|(id, why)| format!("#{id} left out: {why}")),
-    );
+    let (losses, note) = dropped::told(&text, &report.dropped, brep.unit_in_metres);
+    brep.source.losses.extend(losses);
+    brep.notes.extend(note);
     note_some(&mut brep.notes, report.parse_warnings.iter().map(ToString::to_string));
     note_some(&mut brep.notes, scene.warnings().iter().map(ToString::to_string));
     if !brep.faces.is_empty() {
@@ -94,7 +94,8 @@ fn parse(bytes: Vec<u8>) -> std::result::Result<Found, (String, String)> {
         let notes = brep.notes.into_iter().chain(soup.notes).collect();
         return Ok(Found::Triangles(Soup { notes, ..soup }, brep.source));
     }
-    let why = brep.notes.iter().take(3).cloned().collect::<Vec<_>>().join("; ");
+    let told = brep.source.losses.iter().map(ToString::to_string).chain(brep.notes);
+    let why = told.take(3).collect::<Vec<_>>().join("; ");
     let why = if why.is_empty() { why } else { format!(" ({why})") };
     let what = if model.header().schema.to_string().starts_with("IFC") || text.has(&["IFCPROJECT"])
     {

@@ -2,9 +2,9 @@
 
 use super::shape;
 use super::text::Text;
-use crate::surface::Curve;
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::{FARTHEST, NurbsCurve, reach};
+use crate::surface::{Curve, Loss};
 use glam::{DMat4, DVec3};
 use std::collections::{HashMap, HashSet};
 use step_io::scene::{Bound, Edge, Face, MappedInstance, ProductDef, Scene, Transform, Vertex};
@@ -180,7 +180,13 @@ impl<'m> Reading<'m> {
             return Ok(());
         }
         let Some(local) = matrix(item.transform()) else {
-            self.note(format!("mapped item '{}' has no placement that can be used", item.name()));
+            self.brep.source.losses.push(Loss {
+                what: format!("mapped item '{}'", item.name()),
+                why: "it has no placement that can be used".into(),
+                faces: faces.len(),
+                area: None,
+                whole: true,
+            });
             return Ok(());
         };
         let Some(copy) = self.enter(level)? else { return Ok(()) };
@@ -209,8 +215,9 @@ impl<'m> Reading<'m> {
                     "" => String::new(),
                     name => format!(" '{name}'"),
                 };
-                let id = self.names.get(&face.key()).map_or("a face".into(), |id| format!("#{id}"));
-                self.note(format!("{id}{name} left out: {why}"));
+                let id = self.names.get(&face.key()).map_or(String::new(), |id| format!(" #{id}"));
+                let what = format!("face{id}{name}");
+                self.brep.source.losses.push(Loss { what, why, faces: 1, ..Loss::default() });
             }
         }
         Ok(())
