@@ -1,8 +1,8 @@
 //! The formats that grids are written in, by the end of the path.
 
 use super::{
-    GridFile, compas, csv, dxf, extension, file, gltf, ifc, native, obj, off, opensees, ply, saf,
-    stl, vtu,
+    GridFile, compas, csv, dxf, extension, gltf, ifc, native, obj, off, opensees, ply, replace,
+    saf, stl, vtu,
 };
 use crate::error::{Error, Result};
 use std::path::{Path, PathBuf};

@@ -380,9 +380,9 @@ fn triangles_are_read_where_there_is_nothing_exact() {
         let text = plate_with(&format!(
             "#900=COORDINATES_LIST('',4,((0.,0.,0.),(6.,0.,0.),(6.,4.,1.),(0.,4.,1.)));#901={list};"
         ));
-        assert!(matches!(super::parse(text.as_bytes()).unwrap(), Found::Faces(_)));
+        assert!(matches!(super::parse(text.as_bytes().to_vec()).unwrap(), Found::Faces(_)));
         let text = text.replace("#102=ADVANCED_FACE", "#102=NO_FACE");
-        let Found::Triangles(soup, source) = super::parse(text.as_bytes()).unwrap() else {
+        let Found::Triangles(soup, source) = super::parse(text.as_bytes().to_vec()).unwrap() else {
             panic!("no triangles")
         };
         assert_eq!((soup.points.len(), soup.faces.len()), (4, 2));
