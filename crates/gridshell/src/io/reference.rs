@@ -123,7 +123,7 @@ fn is_plain(path: &Path) -> bool {
 fn is_below(path: &Path, folder: &Path) -> bool {
     let whole = |p: &Path| Some(without_ups(&absolute(p).ok()?));
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    matches!((whole(path), whole(folder)), (Some(p), Some(f)) if p.starts_with(f))
+    matches!((whole(path), whole(folder)), (Some(p), Some(f)) if p.starts_with(&f))
 }
 
 /// An absolute path with each `..` taken together with the name before it.
