@@ -58,11 +58,10 @@ impl Blocks {
         let mut blocks = Blocks::default();
         for record in records(ir, "product_definitions") {
             let Some(id) = text(record, "source_uuid") else { continue };
-            let listed = record.field("member_object_ids");
-            let members: Vec<String> = (listed.as_ref().and_then(|v| v.as_array()).into_iter())
-                .flatten()
-                .filter_map(|v| v.as_str().map(str::to_owned))
-                .collect();
+            let listed = record.field("member_object_ids").unwrap_or_default();
+            let listed = listed.as_array().into_iter().flatten();
+            let members: Vec<String> =
+                listed.filter_map(|v| v.as_str().map(str::to_owned)).collect();
             blocks.members.extend(members.iter().cloned());
             let elsewhere = text(record, "external_reference").is_some();
             blocks.definitions.insert(id, Definition { members, elsewhere });

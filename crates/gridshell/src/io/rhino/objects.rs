@@ -148,7 +148,7 @@ impl<'a> Reading<'a> {
             let object = self.object(owner, Kind::SubD.told());
             if self.taken[object] {
                 let cage = serde_json::to_value(&subd.cage).unwrap_or_default();
-                let faces = cage.get("faces").and_then(|f| f.as_array()).map_or(0, Vec::len);
+                let faces = cage["faces"].as_array().map_or(0, Vec::len);
                 let why = "subdivision surfaces cannot be read yet; turn it into NURBS (ToNURBS) or a mesh in Rhino";
                 let what = self.listed[object].told();
                 self.losses.push(Loss { what, why: why.into(), faces, area: None, whole: true });

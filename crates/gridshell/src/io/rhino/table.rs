@@ -5,8 +5,9 @@
 //! Rhino 1 has no such table.
 
 use glam::DVec3;
+use std::fmt::Write;
 
-/// Codes of chunks (openNURBS, `opennurbs_3dm.h`).
+/// Codes of chunks (`opennurbs_3dm.h`).
 const OBJECT_TABLE: u32 = 0x1000_0013;
 const BLOCK_TABLE: u32 = 0x1000_0021;
 const UNKNOWN: u8 = 0x7f;
@@ -185,7 +186,7 @@ fn uuid(bytes: &[u8]) -> String {
         if [4, 6, 8, 10].contains(&k) {
             text.push('-');
         }
-        text += &format!("{:02x}", bytes[i]);
+        let _ = write!(text, "{:02x}", bytes[i]);
     }
     text
 }

@@ -112,7 +112,7 @@ fn off_is_read_by_words_wherever_its_lines_break() {
         ),
         (
             "broken vertices",
-            format!("OFF\n4 2 0\n0\n0 0\n2 0 0 2\n2 0 0 2 0\n3 0\n1 2\n3\n0 2 3\n"),
+            "OFF\n4 2 0\n0\n0 0\n2 0 0 2\n2 0 0 2 0\n3 0\n1 2\n3\n0 2 3\n".to_owned(),
         ),
         ("no number of edges", format!("OFF\n4 2\n{}{}", behind(""), "3 0 1 2\n3 0 2 3\n")),
         ("colours of four", format!("COFF 4 2 0\n{}{faces}", behind("1 0 0 1"))),
@@ -146,7 +146,7 @@ fn off_is_read_by_words_wherever_its_lines_break() {
         assert_eq!(mesh.points[1], DVec3::new(2.0, 0.0, 0.0), "{what}");
     }
     for (text, told) in [
-        (format!("OFF BINARY\n4 2 0\n\0\0"), "binary OFF cannot be read"),
+        ("OFF BINARY\n4 2 0\n\0\0".to_owned(), "binary OFF cannot be read"),
         (format!("nOFF 4\n4 2 0\n{points}"), "only three dimensions can be read, not 4"),
         (format!("{plain} 9"), "`9` stands behind the last face"),
         (plain.replace(" 3 0 2 3", " 3 0 2"), "the file ends before"),
