@@ -9,7 +9,7 @@ use super::table::{Kind, Row};
 use crate::io::Choice;
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::{NurbsCurve, NurbsSurface};
-use crate::surface::{Curve, Shape};
+use crate::surface::{Curve, Loss, Shape};
 use cadmpeg_ir::{CadIr, NativeRecord};
 use glam::{DAffine3, DMat3, DVec3};
 use std::collections::{BTreeMap, BTreeSet};
@@ -195,8 +195,9 @@ impl Reading<'_> {
                 }
                 let number = self.listed.len();
                 let copied = copy(&mut self.brep, &old, &faces, Some(&place.place), number);
-                if copied.is_err() {
-                    object.faces = 0;
+                if let Err(why) = copied {
+                    let (what, faces) = (object.told(), std::mem::take(&mut object.faces));
+                    self.losses.push(Loss { what, why, faces, area: None, whole: true });
                 }
                 self.listed.push(object.clone());
                 self.meshed.extend(meshes().map(|mesh| mesh.placed(number, Some(&place.place))));
