@@ -1,5 +1,6 @@
 //! Readers and writers, one file per format, and surfaces by name.
 
+mod bezier;
 mod choice;
 mod compas;
 mod csv;
@@ -33,6 +34,7 @@ pub mod step;
 mod stitch;
 mod stl;
 mod text;
+mod thin;
 mod turn;
 mod unit;
 mod values;

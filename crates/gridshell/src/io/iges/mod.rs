@@ -8,7 +8,6 @@
 //! all work is counted, so a file that is wrong ends in an error, not in a hang.
 
 mod arc;
-mod bezier;
 mod curves;
 mod directory;
 mod global;
@@ -21,7 +20,7 @@ mod surfaces;
 mod tokens;
 mod trimmed;
 
-use super::file;
+use super::{bezier, file};
 use crate::error::{Error, Result};
 use crate::surface::brep::Brep;
 use crate::surface::{Loss, Source, Unit};

@@ -2,6 +2,7 @@
 
 use crate::io::LengthUnit;
 use crate::io::soup::Soup;
+use crate::surface::Loss;
 use crate::surface::nurbs::{FARTHEST, reach};
 use glam::DVec3;
 use step_io::scene::Scene;
@@ -24,7 +25,17 @@ pub(super) fn soup(scene: &Scene, unit_in_metres: f64) -> Soup {
             }
         }
     }
-    soup.note_count(lost, "left out", "triangles out of reach");
+    if lost > 0 {
+        soup.losses.push(Loss {
+            what: "triangles".to_owned(),
+            why: format!(
+                "they reach farther than {FARTHEST:e} m; correct their points, or the unit"
+            ),
+            faces: lost,
+            area: None,
+            whole: false,
+        });
+    }
     if scene.all_product_definitions().any(|d| d.occurrences().next().is_some()) {
         soup.notes.push(
             "triangles are read where they are drawn, not where the assembly places them".into(),
