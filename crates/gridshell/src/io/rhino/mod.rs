@@ -219,7 +219,8 @@ impl<'a> Reading<'a> {
         if !exact && !soup.faces.is_empty() {
             let soup = Soup { notes, ..soup };
             let mesh = weld::weld(path, soup, &Opening::default())?;
-            return Ok(Model::Mesh(PolygonMesh { source, ..mesh }));
+            let losses = source.losses.into_iter().chain(mesh.source.losses).collect();
+            return Ok(Model::Mesh(PolygonMesh { source: Source { losses, ..source }, ..mesh }));
         }
         if !exact {
             let why: Vec<String> = source.losses.iter().take(3).map(Loss::to_string).collect();
