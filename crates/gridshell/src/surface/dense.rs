@@ -94,8 +94,8 @@ fn runs(corners: &[Corner], round: Option<f64>, gap: f64) -> Vec<Vec<usize>> {
 
 /// The first place of the largest value, with room for rounding.
 fn first_of_largest(n: usize, value: impl Fn(usize) -> f64) -> usize {
-    let mut best = (0, f64::NEG_INFINITY);
-    for k in 0..n {
+    let mut best = (0, value(0));
+    for k in 1..n {
         let x = value(k);
         if x > best.1 + ALIKE * best.1.abs() {
             best = (k, x);

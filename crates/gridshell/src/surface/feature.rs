@@ -56,8 +56,13 @@ impl Surface {
             let mut cutter = Cutter::new(self, wanted.edge_length);
             for (i, guide) in wanted.guides.iter().enumerate() {
                 let thinned = thin_guide(i, guide, wanted.corner_angle, wanted.edge_length);
-                let (guide, note) = thinned.map_or((&guide[..], None), |(g, note)| (g, Some(note)));
-                notes.extend(note);
+                let guide = match &thinned {
+                    Some((guide, note)) => {
+                        notes.push(note.clone());
+                        guide
+                    }
+                    None => guide,
+                };
                 notes.extend(cutter.cut_guide(i, guide)?);
             }
             for (i, &anchor) in wanted.anchors.iter().enumerate() {
