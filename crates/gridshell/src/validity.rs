@@ -27,6 +27,8 @@ pub const OFF: f64 = 1e-3;
 const SHARP: f64 = 0.35;
 /// Two nodes on a loop are apart along it if the way there is longer than this many times the distance between them.
 const AROUND: f64 = 2.0;
+/// Nodes on two borders no farther apart than this, over l0, are at one place.
+const TOUCHING: f64 = 1e-6;
 /// Faults and remarks beyond this many are only counted.
 const MOST_TOLD: usize = 8;
 
@@ -81,15 +83,15 @@ impl Kind {
     fn counted(self, n: usize) -> String {
         let s = if n == 1 { "" } else { "s" };
         match self {
-            Kind::Manifold => "the panels are no manifold".into(),
-            Kind::Topology => "the topology is not the surface's".into(),
             Kind::Near => format!("{n} pair{s} of nodes at nearly one place"),
             Kind::Folded => format!("{n} folded panel{s}"),
             Kind::Flat => format!("{n} panel{s} without area"),
             Kind::Bridging => format!("{n} bridging member{s}"),
             Kind::OffSurface => format!("{n} node{s} off the surface"),
             Kind::OffBoundary => format!("{n} node{s} off the border"),
-            Kind::Area => "the area is not the surface's".into(),
+            Kind::Manifold | Kind::Topology | Kind::Area => {
+                format!("{n} fault{s} of the whole grid")
+            }
         }
     }
 }
@@ -218,21 +220,23 @@ impl Validity {
 
 /// These faults in one sentence: how many of each kind, and where the first ones are.
 pub fn summary(faults: &[Fault]) -> String {
-    let mut kinds: Vec<Kind> = faults.iter().map(|f| f.kind).collect();
+    let of_all = faults.iter().filter(|f| f.nodes.is_empty()).map(|f| f.message.clone());
+    let mut what: Vec<String> = of_all.collect();
+    let mut kinds: Vec<Kind> =
+        faults.iter().filter(|f| !f.nodes.is_empty()).map(|f| f.kind).collect();
     kinds.sort_unstable();
-    let counts = kinds.chunk_by(|a, b| a == b).map(|k| k[0].counted(k.len()));
-    let counts: Vec<String> = counts.collect();
-    let places = faults.iter().filter(|f| !f.nodes.is_empty()).map(|f| told(f.at));
-    let mut places: Vec<String> = places.collect();
-    let all = places.len();
-    places.truncate(MOST_TOLD);
-    let more = if all > places.len() {
-        format!(" and {} more", all - places.len())
-    } else {
-        String::new()
-    };
-    let near = if all > 0 { format!(", near {}{more}", places.join(", ")) } else { String::new() };
-    counts.join(", ") + &near
+    what.extend(kinds.chunk_by(|a, b| a == b).map(|k| k[0].counted(k.len())));
+    let mut places: Vec<String> = Vec::new();
+    for place in faults.iter().filter(|f| !f.nodes.is_empty()).map(|f| told(f.at)) {
+        if places.len() < MOST_TOLD && !places.contains(&place) {
+            places.push(place);
+        }
+    }
+    if kinds.is_empty() {
+        return what.join(", ");
+    }
+    let first = if kinds.len() > places.len() { ", the first near " } else { ", near " };
+    what.join(", ") + first + &places.join(", ")
 }
 
 fn fault(kind: Kind, at: DVec3, nodes: &[u32], message: String) -> Fault {
@@ -245,7 +249,7 @@ pub fn told(at: [f64; 3]) -> String {
 }
 
 /// A distance in words, however small.
-fn metres(x: f64) -> String {
+pub fn metres(x: f64) -> String {
     if x >= 1e-3 || x == 0.0 { format!("{x:.3} m") } else { format!("{x:.1e} m") }
 }
 
@@ -295,19 +299,22 @@ fn demand(
     apart: f64,
 ) -> Option<&'static str> {
     let (p, q) = (&grid.places[a as usize], &grid.places[b as usize]);
-    if p.is_fixed() && q.is_fixed() {
-        return Some("both are fixed");
-    }
+    let fixed = p.is_fixed() && q.is_fixed();
     if let (Some(p), Some(q)) = (on_loop(p), on_loop(q)) {
         let chain = &surface.loops[p.0];
+        let around = way_round(chain, p.1, q.1);
         return match p.0 == q.0 {
+            false if apart <= TOUCHING * length => Some("two borders touch there"),
             false => Some("two borders are that near"),
             true if chain.length() < 6.0 * NEAREST * length => Some("the opening is that small"),
-            true if way_round(chain, p.1, q.1) > (AROUND * apart).max(NEAREST * length) => {
+            true if around > (AROUND * apart).max(NEAREST * length) => {
                 Some("the surface is that narrow")
             }
-            true => None,
+            true => fixed.then_some("both are corners"),
         };
+    }
+    if fixed {
+        return Some("both are fixed");
     }
     let beside =
         grid.mesh.adjacent(a, b) || grid.mesh.ring(a).iter().any(|&c| grid.mesh.adjacent(c, b));

@@ -9,7 +9,7 @@ use crate::job::Job;
 use crate::recipe::Recipe;
 use crate::stages::measure::{Quality, measure};
 use crate::surface::Surface;
-use crate::validity::{Validity, told};
+use crate::validity::{Validity, metres, told};
 use glam::DVec3;
 
 /// Finalists that are repaired where the best is not valid. Each costs about what relaxing it does.
@@ -90,7 +90,7 @@ pub fn check(validity: &Validity, recipe: &Recipe, length: f64) -> Result<()> {
 
 /// What the designer may change.
 fn advice(validity: &Validity, recipe: &Recipe, length: f64) -> String {
-    let shorter = format!("an edge length of about {:.3} m may work", 0.5 * length);
+    let shorter = format!("an edge length of about {} may work", metres(0.5 * length));
     let spots = validity.faults.iter().filter(|f| !f.nodes.is_empty()).map(|f| DVec3::from(f.at));
     let spots: Vec<DVec3> = spots.collect();
     let cause = cause(&spots, recipe, CAUSE * length);
