@@ -36,6 +36,7 @@ pub fn from_args(args: &Generate, again: Option<&Recipe>) -> Result<Recipe, Fail
     }
     recipe.smooth_input |= args.smooth_input;
     recipe.accept_losses |= args.accept_losses;
+    recipe.keep_invalid |= args.keep_invalid;
     if let Some(path) = &args.guides {
         let guides = io::read_guides(path)?;
         recipe.guides =
