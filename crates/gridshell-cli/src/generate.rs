@@ -43,7 +43,7 @@ pub fn run(args: &Generate) -> Result<Outcome, Failure> {
     let supports = match (supports, again) {
         (None, Some(before)) if is_same(&run, &before) => before.supports,
         (supports, _) => {
-            let (surface, _) = pipeline::surface(&model, &recipe)?;
+            let (surface, _) = pipeline::surface(&model, &run.recipe)?;
             supports.unwrap_or(Supports::Boundary).nodes(&run.grid, &surface)?
         }
     };
