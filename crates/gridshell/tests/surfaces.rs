@@ -97,7 +97,12 @@ impl Maker {
     }
 
     fn face(&mut self, shape: NurbsSurface, loops: Vec<Vec<Coedge>>, reversed: bool) {
-        self.0.faces.push(BrepFace { shape: Shape::Nurbs(shape), loops, reversed });
+        self.0.faces.push(BrepFace {
+            shape: Shape::Nurbs(shape),
+            loops,
+            reversed,
+            label: String::new(),
+        });
     }
 }
 
@@ -475,7 +480,7 @@ fn height_function_bounded_by_a_loop_is_a_face() {
         Curve::UvLine { shape: Arc::new(shape.clone()), ends }
     };
     let square = (0..4).map(|i| m.curve(side(i), [0.0, 1.0], [v[i], v[(i + 1) % 4]])).collect();
-    m.0.faces.push(BrepFace { shape, loops: vec![square], reversed: false });
+    m.0.faces.push(BrepFace { shape, loops: vec![square], reversed: false, label: String::new() });
     let s = sampling(0.5);
     let surface = tessellate(&m.0, &s).unwrap();
     check(&surface, &s);

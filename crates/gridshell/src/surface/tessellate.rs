@@ -54,7 +54,7 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
         .faces
         .par_iter()
         .enumerate()
-        .map(|(i, face)| piece(face, &edges, sampling).map_err(|what| fault(i, &what)))
+        .map(|(i, face)| piece(face, &edges, sampling).map_err(|what| fault(brep, i, &what)))
         .collect::<Result<_>>()?;
 
     let mut wings = Vec::new();
@@ -116,8 +116,9 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
     })
 }
 
-fn fault(face: usize, what: &str) -> Error {
-    Error::Surface(format!("face {}: {what}", face + 1))
+/// What is wrong with the `i`th face.
+pub(super) fn fault(brep: &Brep, i: usize, what: &str) -> Error {
+    Error::Surface(format!("{}: {what}", brep.faces[i].told(i)))
 }
 
 /// Refuse what the rest relies on.
@@ -134,7 +135,7 @@ fn check(brep: &Brep, sampling: &Sampling) -> Result<()> {
     }
     for (i, f) in brep.faces.iter().enumerate() {
         if f.loops.iter().flatten().any(|c| c.edge as usize >= brep.edges.len()) {
-            return Err(fault(i, "a loop names an edge that does not exist"));
+            return Err(fault(brep, i, "a loop names an edge that does not exist"));
         }
     }
     Ok(())

@@ -195,6 +195,7 @@ impl<'a> Reading<'a> {
                     shape,
                     loops: Vec::new(),
                     reversed: false,
+                    label: String::new(),
                 });
                 self.keep(object, surface.id.as_str(), whole);
             }
@@ -215,8 +216,9 @@ impl<'a> Reading<'a> {
     /// Enter a face, or why it is none.
     fn keep(&mut self, object: usize, id: &str, face: Read<BrepFace>) {
         match face {
-            Ok(face) => {
+            Ok(mut face) => {
                 self.listed[object].faces += 1;
+                face.label = self.listed[object].told();
                 self.brep.object_of.push(object as u32);
                 self.brep.faces.push(face);
             }
@@ -264,7 +266,7 @@ impl<'a> Reading<'a> {
             let along = loops.iter().flatten().flat_map(|c| self.along(c.edge));
             convert::surface(&surface.geometry, &along.collect::<Vec<DVec3>>())?
         };
-        Ok(BrepFace { shape, loops, reversed })
+        Ok(BrepFace { shape, loops, reversed, label: String::new() })
     }
 
     /// The use of an edge by a trim. An edge of this face alone is taken as it is drawn on the surface, which is what
