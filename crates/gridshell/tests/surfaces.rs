@@ -457,6 +457,33 @@ fn face_that_bends_in_one_place_only_is_no_damaged_one() {
     assert!((made / area - 1.0).abs() < 1e-4, "{made} {area}");
 }
 
+/// One height of 65,536 m in a dome took 21 seconds to be found too crumpled, and the face was not named.
+#[test]
+fn control_point_far_away_is_refused_by_the_name_of_its_face() {
+    for (width, wrong) in [
+        (20.0, DVec3::new(5.0, 5.0, 65_536.0)),
+        (0.4, DVec3::new(-1e4, 0.1, 0.0)),
+        (900.0, DVec3::new(300.0, 3e7, -10.0)),
+    ] {
+        let at = |k: usize| DVec3::new((k / 5) as f64, (k % 5) as f64, 0.0) * width / 4.0;
+        let mut points: Vec<DVec3> = (0..25).map(at).collect();
+        let knots = || vec![0., 0., 0., 0., 0.5, 1., 1., 1., 1.];
+        let whole = |points| NurbsSurface::new([3, 3], [knots(), knots()], [5, 5], points, vec![]);
+        let ring = [[0.0, 0.0], [width, 0.0], [width, width], [0.0, width]];
+        let trimmed = |points| {
+            let mut m = Maker::default();
+            let ring = m.ring(&ring.map(|[x, y]| DVec3::new(x, y, 0.0)));
+            m.face(whole(points).unwrap(), vec![ring], false);
+            m.0.faces[0].label = "#17".into();
+            tessellate(&m.0, &sampling(width / 20.0))
+        };
+        assert!(trimmed(points.clone()).is_ok());
+        points[12] = wrong;
+        let e = trimmed(points).err().unwrap().to_string();
+        assert!(e.contains("face 1 (#17)") && e.contains(&format!("{:.3}", wrong.z)), "{e}");
+    }
+}
+
 #[test]
 fn absurd_sampling_is_refused_at_once() {
     let mut m = Maker::default();

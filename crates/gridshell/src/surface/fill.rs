@@ -33,8 +33,9 @@ const LEAST_ADVANCE: f64 = 1e-9;
 /// Probes of the bending at most in each direction.
 const MOST_PROBES: f64 = 160.0;
 
-/// A column of probes leaves out rows where those that it wants stand this many times as far apart.
-const SPARSE: f64 = 2.0;
+/// A column of probes leaves out rows where those that it wants stand this many times as far apart: no ratio that a
+/// drawing is likely to have, as rounding would decide then.
+const SPARSE: f64 = 2.3;
 
 /// Nodes for the inside of the polygons `loops`. None where there would be more than `most`, or where the patch is so
 /// crumpled that finding them would take much longer than for as many elsewhere.
@@ -165,7 +166,7 @@ impl Rows<'_> {
         for c in &mut self.columns {
             if c.due <= v {
                 let waits = c.step.is_finite() && c.step >= SPARSE * step;
-                c.due = if waits { v + c.step } else { f64::NEG_INFINITY };
+                c.due = if waits { v + c.step * (1.0 - ROUNDING) } else { f64::NEG_INFINITY };
             }
             c.step = f64::INFINITY;
         }
@@ -333,7 +334,7 @@ impl Taken {
     }
 
     fn push(&mut self, point: DVec3, normal: DVec3, size: f64) {
-        let finer = |&l: &usize| size <= self.width(l);
+        let finer = |&l: &usize| size <= self.width(l) * (1.0 + ROUNDING);
         let level = (1..LEVELS).take_while(finer).last().unwrap_or(0);
         let key = key(point, self.width(level));
         self.levels[level].entry(key).or_default().push((point, normal, size));
