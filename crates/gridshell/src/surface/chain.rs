@@ -16,6 +16,16 @@ const INSIDE: f64 = 1e-4;
 /// Loops are equally long when their lengths differ by no more than this share: files hold nine digits and more.
 const ALIKE: f64 = 1e-7;
 
+/// A turn that comes within this of an angle asked for, radians, is beyond it: the corners of a regular dodecagon turn
+/// by thirty degrees, and rounding must not say which of them are corners. Far above what files and tangents leave, far
+/// below what is told apart by eye.
+const TIE: f64 = 1e-3;
+
+/// Whether a turn by `angle` is beyond the one asked for.
+pub(crate) fn exceeds(angle: f64, limit: f64) -> bool {
+    angle > limit - TIE
+}
+
 /// One segment of a chain: the carrier edge from vertex k to the next one.
 #[derive(Clone, Copy, Debug)]
 pub struct Segment {
@@ -178,16 +188,13 @@ impl Chain {
         let n = self.segments.len();
         let ends: Vec<[DVec3; 2]> = (0..n).map(|k| self.end_tangents(carrier, curves, k)).collect();
         self.corners = (0..n)
-            .filter(|&k| trig::angle(ends[(k + n - 1) % n][1], ends[k][0]) > corner_angle)
+            .filter(|&k| exceeds(trig::angle(ends[(k + n - 1) % n][1], ends[k][0]), corner_angle))
             .map(|k| k as u32)
             .collect();
-        let Some(&first) = self.corners.first() else { return };
-        self.vertices.rotate_left(first as usize);
-        self.segments.rotate_left(first as usize);
-        for c in &mut self.corners {
-            *c -= first;
+        if !self.corners.is_empty() {
+            self.begin_at_corner();
+            self.measure(carrier);
         }
-        self.measure(carrier);
     }
 
     /// Directions of segment `k` at its two ends.
