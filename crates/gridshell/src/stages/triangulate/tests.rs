@@ -58,7 +58,9 @@ fn connect(carrier: &Carrier) -> (Work, usize) {
     let mut tri = Intrinsic::new(mesh, &carrier.points);
     let mut node: Vec<bool> = (0..carrier.points.len()).map(|v| noise(v) < 0.1).collect();
     for rim in tri.mesh.boundary_loops() {
-        (0..rim.len()).for_each(|k| node[rim[k] as usize] = k % 5 == 0);
+        for (k, &v) in rim.iter().enumerate() {
+            node[v as usize] = k % 5 == 0;
+        }
     }
     let strays: Vec<u32> = tri.mesh.vertices().filter(|&v| !node[v as usize]).collect();
     for (i, &corners) in carrier.triangles.iter().enumerate().step_by(20) {
@@ -108,7 +110,8 @@ fn awkward() -> Vec<(&'static str, Carrier)> {
             "collinear triangles",
             lattice(50, 50, |p| {
                 let (i, j) = (libm::round(50.0 * p.x), libm::round(50.0 * p.y));
-                dvec3(i, j - if i as u64 % 5 == 2 { 1.0 } else { 0.0 } * (1.0 - 1e-13), 0.0)
+                let down = if i as u64 % 5 == 2 { 1.0 - 1e-13 } else { 0.0 };
+                dvec3(i, j - down, 0.0)
             }),
         ),
         ("horn", horn(24, 120, |t| [0.05 * t, 3.0 * t])),
