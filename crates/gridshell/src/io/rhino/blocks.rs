@@ -253,7 +253,7 @@ fn copy(
             *edge = to.edges.len() as u32 - 1;
         }
         let shape = placed_shape(&face.shape, place)?;
-        new.push(BrepFace { shape, loops, reversed: face.reversed });
+        new.push(BrepFace { shape, loops, reversed: face.reversed, label: face.label.clone() });
     }
     to.object_of.extend(new.iter().map(|_| object as u32));
     to.faces.extend(new);

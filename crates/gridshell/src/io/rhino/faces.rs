@@ -51,7 +51,7 @@ impl Reading<'_> {
             let along = loops.iter().flatten().flat_map(|c| self.along(c.edge));
             convert::surface(&surface.geometry, &along.collect::<Vec<DVec3>>())?
         };
-        Ok(BrepFace { shape, loops, reversed })
+        Ok(BrepFace { shape, loops, reversed, label: String::new() })
     }
 
     /// The use of an edge by a trim. An edge of this face alone is taken as it is drawn on the surface, which is what

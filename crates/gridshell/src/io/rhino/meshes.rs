@@ -199,7 +199,7 @@ impl Reading<'_> {
                 Coedge { edge, reversed: a > b }
             });
             let loops = vec![coedges.to_vec()];
-            self.brep.faces.push(BrepFace { shape, loops, reversed: false });
+            self.brep.faces.push(BrepFace { shape, loops, reversed: false, label: String::new() });
             self.brep.object_of.push(object as u32);
             self.listed[object].faces += 1;
         }

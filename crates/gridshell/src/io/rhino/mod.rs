@@ -175,8 +175,12 @@ impl<'a> Reading<'a> {
                     Some(corners) => convert::bounded(corners),
                     None => convert::surface(&surface.geometry, &[]),
                 };
-                let whole =
-                    shape.map(|shape| BrepFace { shape, loops: Vec::new(), reversed: false });
+                let whole = shape.map(|shape| BrepFace {
+                    shape,
+                    loops: Vec::new(),
+                    reversed: false,
+                    label: String::new(),
+                });
                 self.keep(object, surface.id.as_str(), whole);
             }
         }
@@ -192,8 +196,9 @@ impl<'a> Reading<'a> {
     /// Enter a face, or why it is none.
     fn keep(&mut self, object: usize, id: &str, face: Read<BrepFace>) {
         match face {
-            Ok(face) => {
+            Ok(mut face) => {
                 self.listed[object].faces += 1;
+                face.label = self.listed[object].told();
                 self.brep.object_of.push(object as u32);
                 self.brep.faces.push(face);
             }
