@@ -12,7 +12,7 @@ use crate::surface::curve::Curve;
 use crate::surface::nurbs::{NurbsCurve, NurbsSurface};
 use crate::surface::shape::Shape;
 use crate::surface::trim::Edges;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// Steps to where an edge meets a line at most.
 const STEPS: usize = 80;
@@ -160,8 +160,8 @@ impl Cutter<'_, '_> {
         for i in (0..=last).filter(|&i| off[i] != 0.0) {
             let crossed = before.filter(|&b| off[b] * off[i] < 0.0);
             if let Some(b) = crossed {
-                let (spot, vertex, next) = self.crossing(&piece, [b, i], line);
-                let mut path: Vec<Spot> = piece.path[from..next.min(i)].to_vec();
+                let (spot, vertex, [to, next]) = self.crossing(&piece, [b, i], line);
+                let mut path: Vec<Spot> = piece.path[from..to].to_vec();
                 if let Some(first) =
                     parts.last().map(|p: &(Piece, Side)| p.0.path[p.0.path.len() - 1])
                 {
@@ -194,16 +194,21 @@ impl Cutter<'_, '_> {
         parts
     }
 
-    /// Where a piece crosses a line between two places on either side of it; the vertex there, and the first of its
-    /// places after it.
-    fn crossing(&mut self, piece: &Piece, [b, i]: [usize; 2], line: &Line) -> (Spot, u32, usize) {
+    /// Where a piece crosses a line between two places on either side of it; the vertex there, and how many of its
+    /// places come before, and up to where they count as on the line.
+    fn crossing(
+        &mut self,
+        piece: &Piece,
+        [b, i]: [usize; 2],
+        line: &Line,
+    ) -> (Spot, u32, [usize; 2]) {
         let path = &piece.path;
         // A place on the line is where the edge has a kink, as like as not.
         let (spot, next) = if i > b + 1 {
             let middle = b + (i - b) / 2;
-            (path[middle], middle + 1)
+            (path[middle], [middle, middle + 1])
         } else {
-            (self.root(piece, path[b], path[i], line), i)
+            (self.root(piece, path[b], path[i], line), [i, i])
         };
         let at = |t: f64, uv: DVec2| Spot { t, uv: line.at(line.along(uv)) };
         let Some(edge) = piece.edge else { return (at(spot.t, spot.uv), piece.ends[0], next) };
@@ -231,8 +236,12 @@ impl Cutter<'_, '_> {
         for k in 0..STEPS {
             let share = if k % 2 == 0 { off(&low) / (off(&low) - off(&high)) } else { 0.5 };
             let guess = between(&low, &high, share);
-            let (uv, _) = self.shape.project(guess.uv, curve.point(guess.t));
-            best = Spot { t: guess.t, uv };
+            // From beyond a fold the way may end in it: from either side, too.
+            let target = curve.point(guess.t);
+            let feet = [guess.uv, low.uv, high.uv].map(|uv| self.shape.project(uv, target));
+            let far = |foot: &DVec3| foot.distance_squared(target);
+            let near = feet.into_iter().min_by(|f, g| far(&f.1).total_cmp(&far(&g.1)));
+            best = Spot { t: guess.t, uv: near.map_or(guess.uv, |foot| foot.0) };
             let d = off(&best);
             if d.abs() <= EXACT * line.near[0] {
                 break;

@@ -31,6 +31,8 @@ const SNAP: f64 = 2e-5;
 /// Pieces of each edge when it is brought to (u, v), and how far they may bulge, over its length.
 const PIECES: f64 = 24.0;
 const BULGE: f64 = 1e-3;
+/// How near the foot of a place on an edge must be, over [`BULGE`].
+const FOUND: f64 = 1e-3;
 /// Parts of one face at most; one with more stays whole.
 const MOST_PARTS: usize = 50_000;
 
@@ -106,7 +108,9 @@ fn part(
 ) -> Option<Vec<Cell>> {
     let face = &brep.faces[i];
     let Shape::Nurbs(patch) = &face.shape else { return None };
-    let sampling = sampling_of(&face.shape);
+    let mut sampling = sampling_of(&face.shape);
+    // On its way over a fold a search for a foot may end in it: what is no nearer than this is looked for afresh.
+    sampling.chord_error *= FOUND;
     let tracer = Tracer::new(&face.shape, edges, &sampling);
     let rings = ring::of_face(&tracer, face).ok()?;
     let snap = draft.snap;

@@ -41,7 +41,9 @@ pub(super) fn of_face(tracer: &Tracer, face: &BrepFace) -> Result<Vec<Ring>, Str
     let largest = rings.iter().map(|r| area(r)).max_by(|a, b| a.abs().total_cmp(&b.abs()));
     // A file that has the face the wrong way round.
     if largest.is_some_and(|a| a < 0.0) {
-        rings.iter_mut().for_each(turn);
+        for ring in &mut rings {
+            turn(ring);
+        }
     }
     Ok(rings)
 }
@@ -53,7 +55,7 @@ fn piece(run: Run) -> Piece {
 }
 
 /// Run the other way.
-fn turn(ring: &mut Ring) {
+fn turn(ring: &mut [Piece]) {
     ring.reverse();
     for piece in ring {
         piece.path.reverse();

@@ -96,7 +96,7 @@ fn a_gable_in_one_face_has_its_ridge_as_a_crease() {
 
 #[test]
 fn folded_plates_in_both_directions_meet_in_points() {
-    let roof = net(4, 3, |i, j| 0.6 * ((i + j) % 2) as f64);
+    let roof = net(4, 3, |i, j| 0.6 * (i % 2 + j % 2) as f64);
     let (brep, surface) = laid(whole(roof));
     assert_eq!((brep.faces.len(), brep.vertices.len(), brep.edges.len()), (12, 20, 31));
     assert_eq!(surface.euler_characteristic(), 1);
@@ -148,7 +148,8 @@ fn trims_and_openings_across_folds_are_cut_where_they_meet_them() {
     let free = polygon(&outer) - polygon(&over) - polygon(&beside) - polygon(&touching);
     assert!(near(surface.area, free * each * 10.0), "{} {}", surface.area, free * 50.0);
     assert_eq!(surface.loops.len(), 4);
-    assert_eq!(brep.faces.len(), 3);
+    // The hole over two folds leaves two parts between them.
+    assert_eq!(brep.faces.len(), 4);
     // The fold at u = 1 is cut by the hole over it, and at the corner that touches it; that at u = 2 by the hole.
     let end = 0.6 + 0.3 * (2.9 - 2.0) / (2.9 - 1.8);
     let long = 10.0 * ((0.9 - 0.5) + (0.3 - 0.1) + (0.3 - 0.1) + (end - 0.5));
@@ -188,7 +189,8 @@ fn a_polyline_turned_about_an_axis_has_rings_of_creases() {
     // A drum with a cone on it, down to the tip.
     let (_, surface) = laid(whole(round(&[(3.0, 0.0), (3.0, 2.0), (0.0, 6.0)])));
     let tau = std::f64::consts::TAU;
-    assert!(near(surface.area, tau * 3.0 * 2.0 + 0.5 * tau * 3.0 * 5.0), "{}", surface.area);
+    let exact = tau * 3.0 * 2.0 + 0.5 * tau * 3.0 * 5.0;
+    assert!((surface.area / exact - 1.0).abs() < 1e-4, "{} {exact}", surface.area);
     assert_eq!((surface.loops.len(), surface.features.len()), (1, 1));
     assert!((length(&surface) / (tau * 3.0) - 1.0).abs() < 2e-2);
     assert_eq!(surface.euler_characteristic(), 1);
@@ -198,10 +200,10 @@ fn a_polyline_turned_about_an_axis_has_rings_of_creases() {
 fn holes_across_a_fold_and_the_seam_of_a_tube_are_kept() {
     let drum = round(&[(3.0, 0.0), (3.0, 2.0), (1.0, 4.0)]);
     let mut brep = trimmed(drum, &[&[(-0.3, 0.7), (-0.3, 1.3), (0.4, 1.3), (0.4, 0.7)]]);
-    // The two rims, without a seam.
+    // The two rims, without a seam, beginning elsewhere than the patch.
     for (v, way) in [(0.0, false), (2.0, true)] {
         let shape = Arc::new(brep.faces[0].shape.clone());
-        let ends = [DVec2::new(0.0, v), DVec2::new(4.0, v)];
+        let ends = [DVec2::new(2.0, v), DVec2::new(6.0, v)];
         brep.vertices.push(shape.point(ends[0]));
         let vertex = brep.vertices.len() as u32 - 1;
         brep.edges.push(BrepEdge {
