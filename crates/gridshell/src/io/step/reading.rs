@@ -297,7 +297,8 @@ impl<'m> Reading<'m> {
         let points = self.control_points(&loops);
         let shape = shape::of_face(self.model, face, place, &points)?;
         let reversed = face.orientation() == Orientation::Reversed;
-        let mut face = BrepFace { shape, loops, reversed };
+        let label = self.names.get(&face.key()).map(|id| format!("#{id}")).unwrap_or_default();
+        let mut face = BrepFace { shape, loops, reversed, label };
         if place.determinant() < 0.0 {
             // Seen in a mirror the outside is against du x dv, and the surface to the right of its loops.
             face.reversed = !reversed;

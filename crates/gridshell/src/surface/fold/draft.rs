@@ -85,13 +85,14 @@ impl Draft {
         let mut more = Vec::new();
         let mut is_part = vec![false; brep.faces.len()];
         for (i, cells) in parts {
-            let reversed = brep.faces[i].reversed;
+            let BrepFace { reversed, label, .. } = brep.faces[i].clone();
             let object = brep.object_of.get(i).copied();
             is_part[i] = true;
             for (n, cell) in cells.into_iter().enumerate() {
                 let of_ring = |ring: &Vec<Piece>| coedges(ring, &pieces, reversed);
                 let loops = cell.rings.iter().map(of_ring).filter(|l| !l.is_empty()).collect();
-                let face = BrepFace { shape: cell.shape, loops, reversed };
+                let label = label.clone();
+                let face = BrepFace { shape: cell.shape, loops, reversed, label };
                 if n == 0 {
                     brep.faces[i] = face;
                 } else {

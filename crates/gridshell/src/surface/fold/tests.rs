@@ -31,7 +31,12 @@ fn net(n: usize, m: usize, z: impl Fn(usize, usize) -> f64) -> NurbsSurface {
 }
 
 fn whole(patch: NurbsSurface) -> Brep {
-    let face = BrepFace { shape: Shape::Nurbs(patch), loops: Vec::new(), reversed: false };
+    let face = BrepFace {
+        shape: Shape::Nurbs(patch),
+        loops: Vec::new(),
+        reversed: false,
+        label: String::new(),
+    };
     Brep { faces: vec![face], ..Brep::default() }
 }
 
@@ -268,6 +273,7 @@ fn faces_beside_a_folded_one_share_its_pieces() {
         shape: Shape::Nurbs(wall.unwrap()),
         loops: vec![pair.to_vec()],
         reversed: false,
+        label: String::new(),
     });
     crate::surface::sew(&mut brep, None).unwrap();
     let (brep, surface) = laid(brep);
