@@ -55,7 +55,7 @@ pub use unit::LengthUnit;
 pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
-use crate::surface::{Model, PolygonMesh, Source, builtin, sew};
+use crate::surface::{Model, PolygonMesh, Source, builtin, sew, split_folds};
 use serde::{Deserialize, Serialize};
 use soup::Soup;
 use std::path::Path;
@@ -130,6 +130,7 @@ pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
     let odd = odd_size(model.size());
     if let Model::Brep(brep) = &mut model {
         sew(brep, opening.sew)?;
+        split_folds(brep);
         brep.notes.extend(odd);
     }
     Ok(model)

@@ -12,6 +12,8 @@ mod facets;
 mod mend;
 mod meshes;
 mod numbers;
+mod operators;
+mod owners;
 mod reading;
 mod sets;
 mod shape;
@@ -65,13 +67,14 @@ fn fault(path: &Path, place: &str, what: &str) -> Error {
 
 /// Read what the text of a STEP file holds; place and sentence on failure.
 fn parse(bytes: Vec<u8>) -> std::result::Result<Found, (String, String)> {
-    let (text, notes) = mend::mended(bytes);
+    let mend::Mended { text, operators, notes } = mend::mended(bytes);
     let (model, report) =
         step_io::read(text.bytes.as_slice()).map_err(|e| told(&e, &text.bytes))?;
     let scene = model.scene();
     let unit = scene.units().length.map(|u| u.to_si).filter(|m| m.is_finite() && *m > 0.0);
-    let mut reading = Reading::new(&model, unit.unwrap_or(0.001));
+    let mut reading = Reading::new(&model, operators, unit.unwrap_or(0.001));
     reading.name_faces(&text, &report);
+    reading.find_owners(&text, &report);
     reading.brep.notes = notes;
     reading.brep.source = source(&model);
     let precision = scene.units().precision.filter(|p| p.is_finite() && *p > 0.0);
