@@ -66,7 +66,7 @@ pub fn taken(laid: &Laid, index: u32, job: &Job) -> Result<Run> {
         candidates,
         quality: judge(&grid),
         figures: schedule.figures.clone(),
-        irregular: irregular_nodes(&grid),
+        irregular: irregular_nodes(&grid, run.origin),
         stages: vec![regularized, relaxed],
         stopped: false,
         schedule,

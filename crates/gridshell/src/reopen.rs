@@ -51,7 +51,11 @@ pub fn open(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Ope
 fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
     // Where both are given, the unit is the surface's: our grids state their own.
     let of_grid = if surface.is_some() { Opening::default() } else { opening.clone() };
-    let PolygonMesh { name, points, faces, notes, .. } = io::read_mesh_with(path, &of_grid)?;
+    let PolygonMesh { name, mut points, faces, notes, origin, .. } =
+        io::read_mesh_with(path, &of_grid)?;
+    for p in &mut points {
+        *p = origin.world(*p);
+    }
     let panels = panels(path, &faces)?;
     let edge_length = mean_side(&points, &panels);
     let recipe = Recipe::default();
@@ -63,13 +67,18 @@ fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Op
         Some(wanted) => {
             let model = io::open_with(wanted, opening)?;
             let surface = sample(&model, edge_length, &recipe)?;
-            let grid = Grid::from_panels(points, &panels, &surface)?;
+            let xyz = points.iter().map(|&p| surface.origin.local(p)).collect();
+            let grid = Grid::from_panels(xyz, &panels, &surface)?;
             let summary = SurfaceSummary::new(&model, &surface);
             (grid, surface, Some(summary), Some(io::reference(wanted, opening)?))
         }
     };
     let supports = Supports::Boundary.nodes(&grid, &surface)?;
-    let document = Document { surface: reference, supports, ..Document::of_grid(&name, &grid) };
+    let document = Document {
+        surface: reference,
+        supports,
+        ..Document::of_grid(&name, &grid, surface.origin)
+    };
     Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes })
 }
 
@@ -117,6 +126,7 @@ pub fn restore(document: Document, model: Option<&Model>) -> Result<Opened> {
         None => sample(model, edge_length, &recipe)?,
     };
     let summary = Some(SurfaceSummary::new(model, &surface));
+    let xyz: Vec<DVec3> = xyz.into_iter().map(|p| surface.origin.local(p)).collect();
     let grid = match at_places(&document, &xyz, &surface, edge_length) {
         Some(places) => {
             let mesh = Mesh::from_triangles(xyz.len(), &document.panels)?;
@@ -191,7 +201,7 @@ pub fn edited(document: &Document, editor: &Editor) -> Document {
     let whole = !held.is_empty() && kept.clone().all(|v| held.binary_search(v).is_ok());
     let supports = if whole { border } else { held };
     let done = editor.history().map(|(edit, _)| serde_json::json!(edit));
-    let fresh = Document::of_grid(&document.name, &grid);
+    let fresh = Document::of_grid(&document.name, &grid, editor.surface().origin);
     Document {
         places: grid.places.iter().map(|&p| p.into()).collect(),
         edits: document.edits.iter().cloned().chain(done).collect(),

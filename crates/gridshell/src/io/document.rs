@@ -5,7 +5,7 @@ use super::Reference;
 use crate::grid::{Grid, Place};
 use crate::recipe::Recipe;
 use crate::run::Run;
-use crate::surface::{ChainPoint, SurfacePoint};
+use crate::surface::{ChainPoint, Origin, SurfacePoint};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -32,7 +32,7 @@ pub struct Document {
     pub edge_length: Option<f64>,
     /// The recipe, complete; None where no run is known.
     pub recipe: Option<Recipe>,
-    /// Positions of the nodes.
+    /// Positions of the nodes, in the coordinates of the surface's file.
     pub nodes: Vec<[f64; 3]>,
     /// Where each node sits on the surface; empty where that is not known.
     pub places: Vec<PlaceRecord>,
@@ -65,8 +65,8 @@ pub enum PlaceRecord {
 }
 
 impl Document {
-    /// A grid of which nothing else is known.
-    pub fn of_grid(name: &str, grid: &Grid) -> Document {
+    /// A grid of which nothing else is known, whose coordinates have this origin.
+    pub fn of_grid(name: &str, grid: &Grid, origin: Origin) -> Document {
         let mut panels: Vec<[u32; 3]> = grid.mesh.triangles().collect();
         panels.sort_unstable();
         let mut features: Vec<[u32; 2]> = grid
@@ -85,7 +85,7 @@ impl Document {
             seed: None,
             edge_length: None,
             recipe: None,
-            nodes: grid.xyz.iter().map(DVec3::to_array).collect(),
+            nodes: grid.xyz.iter().map(|&p| origin.world(p).to_array()).collect(),
             places: Vec::new(),
             panels,
             features,
@@ -99,7 +99,7 @@ impl Document {
     pub fn of_run(run: &Run, reference: Reference, supports: Vec<u32>) -> Document {
         let grid = &run.grid;
         let anchor = |p: &[f64; 3]| {
-            let p = DVec3::from_array(*p);
+            let p = run.origin.local(DVec3::from_array(*p));
             let apart = |v: &usize| grid.xyz[*v].distance_squared(p);
             (0..grid.xyz.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))).map(|v| v as u32)
         };
@@ -111,7 +111,7 @@ impl Document {
             places: grid.places.iter().map(|&p| p.into()).collect(),
             anchors: run.recipe.anchors.iter().filter_map(anchor).collect(),
             supports,
-            ..Document::of_grid(&run.surface.name, grid)
+            ..Document::of_grid(&run.surface.name, grid, run.origin)
         }
     }
 }

@@ -48,8 +48,11 @@ impl Made {
         let (grid, surface) = Grid::alone("made", xyz.to_vec(), panels).expect("a manifold");
         let schedule = Schedule::new(&grid, &surface, &Tolerances::default());
         let supports = Supports::Boundary.nodes(&grid, &surface).expect("a boundary");
-        let document =
-            Document { seed: Some(1), supports, ..Document::of_grid("made, seed 1", &grid) };
+        let document = Document {
+            seed: Some(1),
+            supports,
+            ..Document::of_grid("made, seed 1", &grid, surface.origin)
+        };
         Made { document, schedule, structure: Structure::default() }
     }
 

@@ -9,7 +9,7 @@ use super::soup::Soup;
 use super::{LengthUnit, Opening, far, file, fins, merge, stitch, turn};
 use crate::error::{Error, Result};
 use crate::surface::nurbs::FARTHEST;
-use crate::surface::{PolygonMesh, Source, ear};
+use crate::surface::{PolygonMesh, ear};
 use glam::DVec3;
 use std::collections::HashSet;
 use std::path::Path;
@@ -69,14 +69,7 @@ pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening) -> Result<Polygon
     drop_unused(&mut work);
     note_many_sided(&mut work);
     let Work { points, faces, notes, .. } = work;
-    Ok(PolygonMesh {
-        name: file::stem(path),
-        points,
-        faces,
-        notes,
-        source: Source::default(),
-        smoothing: None,
-    })
+    Ok(PolygonMesh { name: file::stem(path), points, faces, notes, ..PolygonMesh::default() })
 }
 
 impl Work {

@@ -9,6 +9,7 @@ mod contest;
 mod effort;
 mod narrow;
 mod parts;
+mod places;
 mod smoothing;
 mod starts;
 mod symmetry;
@@ -23,6 +24,7 @@ use crate::schedule::{Schedule, Tolerances};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
 use crate::surface::{Model, Ruler, Sampling, Surface, builtin};
+use places::local;
 use rayon::prelude::*;
 pub use smoothing::smoothed;
 use starts::{Start, Starts};
@@ -40,7 +42,8 @@ const SENSIBLE_NODES: usize = 1000;
 /// several parts of which the recipe chooses none, [`Error::NoGrid`] where no valid grid of this edge length exists.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
-    parts::generate(&*smoothed(model, recipe)?, recipe, job)
+    let run = parts::generate(&*smoothed(model, recipe)?, &local(recipe, model.origin()), job)?;
+    Ok(Run { recipe: recipe.clone(), ..run })
 }
 
 /// Lay a grid on a model of one part; the surface that it was laid on is given too.
@@ -49,8 +52,8 @@ fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
     let make = |l: f64| model.surface(&sampling(l, nodes, recipe));
     let (surface, mut fixed) = wishes::surface(recipe, length, make)?;
     let size = Scale { length, nodes };
-    if let Some(group) = symmetry::group(&surface, model, recipe, length)? {
-        let run = symmetry::generate(model, &surface, &group, recipe, &size, fixed, job)?;
+    if let Some(found) = symmetry::group(&surface, model, recipe, length)? {
+        let run = symmetry::generate(model, &surface, &found, recipe, &size, fixed, job)?;
         return Ok((run, surface));
     }
     if recipe.symmetry != Symmetry::None {
@@ -66,7 +69,7 @@ fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
 /// As [`generate`].
 pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
     recipe.validate()?;
-    parts::surface(&*smoothed(model, recipe)?, recipe)
+    parts::surface(&*smoothed(model, recipe)?, &local(recipe, model.origin()))
 }
 
 /// The surface of a model of one part, and the wanted member length in metres.
@@ -188,11 +191,12 @@ fn finish(
         parts: Vec::new(),
         candidates,
         stages,
-        irregular: irregular_nodes(&grid),
+        irregular: irregular_nodes(&grid, surface.origin),
         quality,
         figures: schedule.figures.clone(),
         warnings,
         stopped: job.stopped(),
+        origin: surface.origin,
         grid,
         schedule,
     })
@@ -208,7 +212,7 @@ fn check(surface: &Surface, grid: &Grid, quality: &Quality, length: f64) -> Resu
     match flaw {
         None => Ok(()),
         Some(message) => Err(Error::NoGrid {
-            at: grid.xyz.first().copied().unwrap_or_default().to_array(),
+            at: surface.origin.world(grid.xyz.first().copied().unwrap_or_default()).to_array(),
             message,
             edge_length: 0.5 * length,
         }),
@@ -226,8 +230,8 @@ fn warnings(surface: &Surface, wanted: usize, report: &triangulate::Report) -> V
         .iter()
         .map(|p| {
             format!(
-                "a node was added near ({:.3}, {:.3}, {:.3}): the surface is narrower there than a member",
-                p.x, p.y, p.z
+                "a node was added near {}: the surface is narrower there than a member",
+                surface.origin.told(*p)
             )
         })
         .collect();
@@ -252,7 +256,7 @@ fn sampling(length: f64, nodes: f64, recipe: &Recipe) -> Sampling {
 /// [`Error::Option`] as [`Recipe::check_edge_length`], [`Error::Surface`] as
 /// [`Model::surface`].
 pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
-    Ok(scale(model, recipe)?.length)
+    Ok(scale(model, &local(recipe, model.origin()))?.length)
 }
 
 /// How large a grid is.

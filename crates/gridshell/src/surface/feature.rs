@@ -151,11 +151,9 @@ impl Surface {
         }
         let first = dropped.first()?;
         Some(format!(
-            "{} short creases are not followed (less than half a member; the first near ({:.3}, {:.3}, {:.3}))",
+            "{} short creases are not followed (less than half a member; the first near {})",
             dropped.len(),
-            first.x,
-            first.y,
-            first.z
+            self.origin.told(*first)
         ))
     }
 
@@ -262,13 +260,10 @@ impl Surface {
         let mut notes = Vec::new();
         let point = |chain: &Chain, s: f64| chain.xyz(&self.carrier, s);
         for chain in self.features.iter().filter(|c| c.length() < SHORT * length) {
-            let p = point(chain, 0.0);
             notes.push(format!(
-                "a feature is only {:.3} m long between two fixed nodes near ({:.3}, {:.3}, {:.3})",
+                "a feature is only {:.3} m long between two fixed nodes near {}",
                 chain.length(),
-                p.x,
-                p.y,
-                p.z
+                self.origin.told(point(chain, 0.0))
             ));
         }
         let samples = |chain: &Chain| -> Vec<DVec3> {
@@ -294,8 +289,8 @@ impl Surface {
                     continue;
                 };
                 notes.push(format!(
-                    "a feature runs closer than half a member to {what} near ({:.3}, {:.3}, {:.3})",
-                    p.x, p.y, p.z
+                    "a feature runs closer than half a member to {what} near {}",
+                    self.origin.told(*p)
                 ));
                 break;
             }
@@ -303,8 +298,8 @@ impl Surface {
         for (i, p) in fixed.iter().enumerate() {
             if fixed[i + 1..].iter().any(|q| q.distance(*p) < NEAR * length) {
                 notes.push(format!(
-                    "fixed nodes are closer than half a member near ({:.3}, {:.3}, {:.3})",
-                    p.x, p.y, p.z
+                    "fixed nodes are closer than half a member near {}",
+                    self.origin.told(*p)
                 ));
             }
         }

@@ -6,6 +6,7 @@
 
 mod area;
 pub mod bends;
+mod bow;
 pub mod brep;
 pub mod builtin;
 mod cap;
@@ -17,6 +18,7 @@ mod cut;
 pub mod direction;
 pub(crate) mod ear;
 mod extend;
+mod extent;
 pub mod facets;
 pub mod feature;
 mod fill;
@@ -30,12 +32,14 @@ pub mod nurbs;
 pub mod offset;
 mod order;
 mod orient;
+mod origin;
 pub mod parts;
 mod plan;
 mod poles;
 mod polygon;
 pub mod project;
 mod refine;
+mod replace;
 pub mod ruler;
 mod sample;
 mod seam;
@@ -62,6 +66,7 @@ pub use locate::Locator;
 pub use model::{Model, PolygonMesh, Sampling};
 pub use motion::Motion;
 pub use offset::OffsetSurface;
+pub use origin::Origin;
 pub use ruler::Ruler;
 pub use sew::{Sewing, sew};
 pub use shape::Shape;
@@ -99,6 +104,8 @@ pub struct Surface {
     pub direction: Vec<DVec3>,
     /// Area in square metres, integrated over the exact patches.
     pub area: f64,
+    /// Where its coordinates have their origin in those of its file.
+    pub origin: Origin,
     /// Carrier edges on model edges or features.
     tracks: Tracks,
 }
@@ -117,6 +124,7 @@ impl Surface {
             scale: Vec::new(),
             direction: Vec::new(),
             area,
+            origin: Origin::default(),
             tracks: Tracks::new(),
         }
     }

@@ -6,6 +6,7 @@
 use super::brep::{Brep, BrepFace};
 use super::model::Sampling;
 use super::orient::{self, Wing};
+use super::origin::Origin;
 use super::refine::Web;
 use super::shape::Shape;
 use super::stretch::{self, Stretch};
@@ -49,7 +50,8 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
     let brep = &seam::complete(brep, sampling)?;
     let (mut points, polylines) = sample_edges(brep, sampling)?;
     let curves: Vec<_> = brep.edges.iter().map(|e| e.curve.clone()).collect();
-    let edges = Edges { curves: &curves, polylines: &polylines, points: &points };
+    let origin = brep.origin;
+    let edges = Edges { curves: &curves, polylines: &polylines, points: &points, origin };
     let pieces: Vec<Piece> = brep
         .faces
         .par_iter()
@@ -112,6 +114,7 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
         scale: Vec::new(),
         direction: Vec::new(),
         area: pieces.iter().map(|p| p.area).sum(),
+        origin: brep.origin,
         tracks,
     })
 }
@@ -202,7 +205,7 @@ fn piece(
     nodes.extend(inside.ok_or(
         "it is too crumpled for triangles of this length; repair it in the program that made it",
     )?);
-    let mut web = weave_web(shape, nodes, &rims, &stretch)?;
+    let mut web = weave_web(shape, nodes, &rims, &stretch, edges.origin)?;
     web.refine(sampling, most);
     let area: f64 = web
         .triangles
@@ -231,10 +234,11 @@ fn weave_web<'a>(
     mut nodes: Vec<Node>,
     rims: &[[u32; 2]],
     stretch: &Stretch,
+    origin: Origin,
 ) -> std::result::Result<Web<'a>, String> {
     for _ in 0..MOST_PINCHES {
         let triangles = weave::triangles(&nodes, rims, stretch).map_err(|i| {
-            let p = nodes[i].xyz;
+            let p = origin.world(nodes[i].xyz);
             format!("its boundary crosses itself near ({:.4}, {:.4}, {:.4})", p.x, p.y, p.z)
         })?;
         let web = Web::new(shape, nodes, &triangles, rims);

@@ -74,7 +74,7 @@ pub fn sew(brep: &mut Brep, tolerance: Option<f64>) -> Result<()> {
         sewing.largest_gap = pairs.joints.iter().map(|j| j.gap).fold(0.0, f64::max);
         let lost = join::join(&mut bounded, &pieces, &pairs, tolerance);
         told.push(joined(&sewing, brep));
-        told.extend(lost.told(&pairs, tolerance));
+        told.extend(lost.told(&pairs, tolerance, brep.origin));
     }
     facing::look(&bounded, (REACH * usual).max(2.0 * tolerance), &mut sewing);
     if any {
