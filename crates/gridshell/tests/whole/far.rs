@@ -116,7 +116,8 @@ fn a_mesh_far_from_the_origin_gives_the_grid_that_it_gives_near() {
         let model = mesh("far.obj", place, 1.0);
         let far = lay(&model, &recipe);
         assert_same(&near, &far, place);
-        let carrier = |run: &Run, model| pipeline::surface(model, &run.recipe).unwrap().0.carrier;
+        let carrier =
+            |run: &Run, model: &Model| pipeline::surface(model, &run.recipe).unwrap().0.carrier;
         let near = carrier(&near, &mesh("again.obj", DVec3::ZERO, 1.0));
         assert_eq!(near.triangles, carrier(&far, &model).triangles, "the same work");
     }
