@@ -276,17 +276,13 @@ fn edits_name_places_in_the_files_coordinates() {
         let told = told.unwrap_err().to_string();
         let up = place + DVec3::Z * 500.0;
         assert!(told.contains(&format!("({:.3}, {:.3}, {:.3})", up.x, up.y, up.z)), "{told}");
+        assert!(editor.log().edits.contains(&Edit::AddAnchor { at: at.to_array() }));
         let grid = editor.finished();
-        let nodes: Vec<DVec3> = grid.xyz.iter().map(|&p| run.origin.world(p)).collect();
-        (nodes, editor.log().to_json())
+        grid.xyz.iter().map(|&p| run.origin.world(p)).collect::<Vec<DVec3>>()
     };
-    let (near, _) = edited(DVec3::ZERO);
+    let near = edited(DVec3::ZERO);
     for place in PLACES {
-        let (far, log) = edited(place);
+        let far = edited(place);
         assert!(near.iter().zip(&far).all(|(p, q)| p.distance(*q - place) < BACK), "{place}");
-        assert!(
-            !place.y.is_normal() || log.contains(&format!("{}", place.y as i64 / 1000)),
-            "{log}"
-        );
     }
 }

@@ -192,6 +192,10 @@ fn a_group_has_as_many_motions_as_its_order() {
     assert_eq!((group.motions().len(), group.order(), group.mirrors().len()), (6, 6, 3));
 }
 
+/// Rings and places along each side of [`uneven`].
+const RINGS: usize = 12;
+const PIECES: usize = 9;
+
 /// A paraboloid over a polygon about the origin, its vertices exactly on it; what is symmetric is the surface, not its
 /// triangles: rings, places along the sides and diagonals are uneven.
 fn uneven(corners: &[[f64; 2]], seed: u64) -> Model {
@@ -201,8 +205,6 @@ fn uneven(corners: &[[f64; 2]], seed: u64) -> Model {
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) as f64 / f64::from(1_u32 << 31) - 0.5
     };
-    const RINGS: usize = 12;
-    const PIECES: usize = 9;
     let around = corners.len() * PIECES;
     let lifted = |p: DVec2| p.extend(2.0 - 0.02 * p.length_squared());
     let mut points = vec![lifted(DVec2::ZERO)];
