@@ -130,6 +130,12 @@ pub fn restore(document: Document, model: Option<&Model>) -> Result<Opened> {
     let grid = match at_places(&document, &xyz, &surface, edge_length) {
         Some(places) => {
             let mesh = Mesh::from_triangles(xyz.len(), &document.panels)?;
+            // A node far from the origin has lost its last digits in the file; its place knows them.
+            let there = |((&x, place), node): ((&DVec3, &Place), &[f64; 3])| {
+                let exact = place.exact(&surface);
+                if surface.origin.world(exact).to_array() == *node { exact } else { x }
+            };
+            let xyz = xyz.iter().zip(&places).zip(&document.nodes).map(there).collect();
             Grid { mesh, places, xyz }
         }
         None => Grid::from_panels(xyz, &document.panels, &surface)?,
