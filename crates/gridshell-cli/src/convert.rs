@@ -6,6 +6,8 @@ use crate::failure::Failure;
 use crate::{handover, open, say};
 use gridshell::io::{Document, GridFile};
 use gridshell::schedule::{Schedule, Tolerances};
+use gridshell::stages::measure::measure;
+use gridshell::validity::Validity;
 
 pub fn run(args: &Convert) -> Result<Outcome, Failure> {
     args.output.iter().try_for_each(|path| handover::check_output(path))?;
@@ -19,10 +21,13 @@ pub fn run(args: &Convert) -> Result<Outcome, Failure> {
         None => opened.document.supports.clone(),
     };
     let panels = schedule.panels.nodes.clone();
-    let document = Document { supports, panels, ..opened.document };
+    let quality = measure(grid, surface, opened.edge_length, &opened.recipe.measure);
+    let look = Validity::of(grid, surface, opened.edge_length, &quality);
+    let invalid = (!look.is_valid()).then(|| look.summary());
+    let document = Document { supports, panels, invalid, ..opened.document };
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
     let wrote = handover::write_all(&args.output, &file)?;
-    opened.notes.iter().for_each(|n| say::note(&format!("note: {n}")));
+    opened.notes.iter().chain(&look.warnings()).for_each(|n| say::note(&format!("note: {n}")));
     say::result(&(wrote + "\n"))?;
     Ok(Outcome::Done)
 }

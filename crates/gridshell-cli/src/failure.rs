@@ -23,7 +23,7 @@ impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         let code = match &error {
             Error::Option(_) => USAGE,
-            Error::NoGrid { .. } => NO_GRID,
+            Error::NoGrid { .. } | Error::Invalid { .. } => NO_GRID,
             Error::Io { .. } | Error::Parse { .. } | Error::Surface(_) => INPUT,
         };
         Failure { code, message: error.to_string() }
@@ -39,6 +39,11 @@ impl Failure {
     #[expect(clippy::needless_pass_by_value, reason = "the shape that map_err wants")]
     pub fn of_input(error: Error) -> Failure {
         Failure { code: INPUT, message: error.to_string() }
+    }
+
+    /// For a grid that is not valid.
+    pub fn invalid(message: impl Display) -> Failure {
+        Failure { code: NO_GRID, message: message.to_string() }
     }
 
     pub fn input(path: &Path, message: impl Display) -> Failure {

@@ -35,6 +35,7 @@ pub fn from_args(args: &Generate, again: Option<&Recipe>) -> Result<Recipe, Fail
         recipe.feature_angle_deg = angle;
     }
     recipe.smooth_input |= args.smooth_input;
+    recipe.keep_invalid |= args.keep_invalid;
     if let Some(path) = &args.guides {
         let guides = io::read_guides(path)?;
         recipe.guides =

@@ -7,6 +7,7 @@ use gridshell::run::{Run, SurfaceSummary};
 use gridshell::schedule::{Schedule, Tolerances};
 use gridshell::stages::measure::{Quality, measure};
 use gridshell::surface::Origin;
+use gridshell::validity::Validity;
 
 /// A grid with all that is known of it. Metres.
 #[derive(Clone, Copy)]
@@ -24,6 +25,7 @@ pub struct Measured {
     opened: Opened,
     schedule: Schedule,
     quality: Quality,
+    validity: Validity,
 }
 
 impl Measured {
@@ -31,7 +33,8 @@ impl Measured {
         let options = &opened.recipe.measure;
         let quality = measure(&opened.grid, &opened.surface, opened.edge_length, options);
         let schedule = Schedule::new(&opened.grid, &opened.surface, &Tolerances::from(options));
-        Measured { opened, schedule, quality }
+        let validity = Validity::of(&opened.grid, &opened.surface, opened.edge_length, &quality);
+        Measured { opened, schedule, quality, validity }
     }
 
     pub fn subject(&self) -> Subject<'_> {
@@ -52,6 +55,11 @@ impl Measured {
     /// Figures of the design surface, where it is known.
     pub fn summary(&self) -> Option<&SurfaceSummary> {
         self.opened.summary.as_ref()
+    }
+
+    /// What is wrong with it.
+    pub fn validity(&self) -> &Validity {
+        &self.validity
     }
 
     /// What the user should know.

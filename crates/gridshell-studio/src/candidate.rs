@@ -9,6 +9,7 @@ use gridshell::run::{Run, StageReport};
 use gridshell::schedule::{Schedule, Tolerances};
 use gridshell::stages::measure::{irregular_nodes, measure};
 use gridshell::stages::relax::relax;
+use gridshell::validity::Validity;
 use std::time::Instant;
 
 /// Candidates that are shown.
@@ -59,12 +60,18 @@ pub fn taken(laid: &Laid, index: u32, job: &Job) -> Result<Run> {
     }
     grid.settle_exactly(&surface);
     let relaxed = stage("relax", clock.elapsed().as_secs_f64(), report.converged, &grid);
+    let quality = judge(&grid);
+    let validity = Validity::of(&grid, &surface, run.edge_length, &quality);
+    let places = gridshell::surface::Origin::default();
+    pipeline::refuse_invalid(&validity, &run.recipe, places, run.edge_length)?;
     let schedule = Schedule::new(&grid, &surface, &Tolerances::from(options));
     let mut candidates = run.candidates.clone();
     candidates[..=index as usize].rotate_right(1);
     Ok(Run {
         candidates,
-        quality: judge(&grid),
+        quality,
+        valid: validity.is_valid(),
+        faults: validity.faults,
         figures: schedule.figures.clone(),
         irregular: irregular_nodes(&grid, run.origin),
         stages: vec![regularized, relaxed],

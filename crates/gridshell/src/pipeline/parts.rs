@@ -3,7 +3,7 @@
 //! Each part gets a grid of its own, of the same edge length, one after the other; then they stand side by side
 //! on one surface and are measured as one. Symmetries and directions are each part's own.
 
-use super::{Scale, check, rough, scale, scale_on, single, whole};
+use super::{Scale, rough, scale, scale_on, single, verdict, whole};
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
 use crate::job::Job;
@@ -14,6 +14,7 @@ use crate::schedule::{Schedule, Tolerances};
 use crate::stages::measure::{irregular_nodes, measure};
 use crate::surface::parts::Offset;
 use crate::surface::{ChainPoint, Locator, Model, Sampling, Surface};
+use crate::validity::Validity;
 use glam::DVec3;
 
 /// Parts beyond this many are only counted in messages.
@@ -162,6 +163,9 @@ fn of_part(number: usize, error: Error) -> Error {
         Error::NoGrid { at, message, edge_length } => {
             Error::NoGrid { at, message: format!("part {number}: {message}"), edge_length }
         }
+        Error::Invalid { message, advice, places } => {
+            Error::Invalid { message: format!("part {number}: {message}"), advice, places }
+        }
         other => other,
     }
 }
@@ -220,7 +224,8 @@ fn join(
     let grids: Vec<&Grid> = runs.iter().map(|run| &run.grid).collect();
     let grid = side_by_side(&grids, offsets)?;
     let quality = measure(&grid, surface, length, &recipe.measure);
-    check(surface, &grid, &quality, length)?;
+    let validity = Validity::of(&grid, surface, length, &quality);
+    verdict::check(&validity, recipe, surface.origin, length)?;
     let stages = (0..runs[0].stages.len()).map(|s| stage(s, &runs, surface, offsets, length));
     let stages = stages.collect::<Result<Vec<_>>>()?;
     let (mut parts, mut candidates, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
@@ -258,6 +263,8 @@ fn join(
         quality,
         figures: schedule.figures.clone(),
         schedule,
+        valid: validity.is_valid(),
+        faults: validity.faults,
         warnings,
         stopped: job.stopped(),
         grid,

@@ -6,7 +6,7 @@
 //! is put at the mean of what its images say, which makes it symmetric again to rounding; on a mesh that is symmetric
 //! but for its facets, to how far these are off the surface that it stands for.
 
-use super::{Scale, check, effort, lay, narrow, nodes_for, sampling, wishes};
+use super::{Scale, effort, lay, narrow, nodes_for, sampling, verdict, wishes};
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
 use crate::job::Job;
@@ -20,6 +20,7 @@ use crate::stages::relax;
 use crate::surface::group::Miss;
 use crate::surface::section::{Part, Wedge};
 use crate::surface::{ChainPoint, Group, Locator, Model, Motion, Sampling, Surface, Symmetries};
+use crate::validity::Validity;
 use glam::{DVec2, DVec3};
 
 /// An image may be off the surface by this share of the surface's size.
@@ -142,7 +143,9 @@ pub fn generate(
     })?;
     let part = Part { surface: part, on: on.into_inner() };
     let nodes = nodes_for(&part.surface, length);
-    let mut run = lay(model, &part.surface, recipe, &Scale { length, nodes }, Vec::new(), job)?;
+    // The verdict is on the whole.
+    let lenient = Recipe { keep_invalid: true, ..recipe.clone() };
+    let mut run = lay(model, &part.surface, &lenient, &Scale { length, nodes }, Vec::new(), job)?;
 
     let tolerance = (SAME * length).max(2.0 * off);
     let locator = Locator::new(surface);
@@ -163,9 +166,22 @@ pub fn generate(
     let merit = |grid: &Grid| {
         Sums::whole(grid, surface, length, recipe.measure.lambda).merit(recipe.measure.lambda)
     };
-    let grid = if merit(&relaxed) >= merit(&joined) { relaxed } else { joined };
-    let quality = measure(&grid, surface, length, &recipe.measure);
-    check(surface, &grid, &quality, length)?;
+    let judged = |grid: Grid| {
+        let quality = measure(&grid, surface, length, &recipe.measure);
+        let validity = Validity::of(&grid, surface, length, &quality);
+        (grid, quality, validity)
+    };
+    let better = merit(&relaxed) >= merit(&joined);
+    let (first, second) = if better { (relaxed, joined) } else { (joined, relaxed) };
+    let mut chosen = judged(first);
+    if !chosen.2.is_valid() {
+        let other = judged(second);
+        if other.2.faults.len() < chosen.2.faults.len() {
+            chosen = other;
+        }
+    }
+    let (grid, quality, validity) = chosen;
+    verdict::check(&validity, recipe, surface.origin, length)?;
     if let Some(last) = run.stages.last_mut() {
         last.quality = Some(quality.clone());
         last.grid = Some(grid.clone());
@@ -179,7 +195,12 @@ pub fn generate(
     }
     // What is narrow in the part need not be so in the whole.
     warnings.extend(narrow::warnings(surface, &grid, length));
+    warnings.extend(validity.warnings());
+    warnings.extend(verdict::node_count(recipe, quality.nodes));
     Ok(Run {
+        recipe: recipe.clone(),
+        valid: validity.is_valid(),
+        faults: validity.faults,
         surface: SurfaceSummary::new(model, surface),
         symmetry: Some(SymmetryReport {
             mirrors: group.mirrors().iter().map(|m| m.perp().to_array()).collect(),

@@ -13,16 +13,20 @@ use std::collections::BTreeSet;
 /// The walk has arrived when it ends within this share of l0.
 const ARRIVED: f64 = 0.1;
 
-/// Number of members whose ends are further apart along the surface than straight by more than
-/// `edge_length`.
+/// Number of [`members`].
 pub fn count(grid: &Grid, surface: &Surface, edge_length: f64) -> usize {
+    members(grid, surface, edge_length).len()
+}
+
+/// The members whose ends are further apart along the surface than straight by more than `edge_length`.
+pub fn members(grid: &Grid, surface: &Surface, edge_length: f64) -> Vec<(u32, u32)> {
     let points: Vec<_> = grid.places.iter().map(|p| p.surface_point(surface)).collect();
     let bridges = |a: u32, b: u32| {
         let edge_length = edge_length * grid.scale(surface, a, b);
         let (a, b) = (&points[a as usize], &points[b as usize]);
         !walk_arrives(surface, a, b, edge_length) && !flood_arrives(surface, a, b, edge_length)
     };
-    grid.mesh.edges().filter(|&(a, b)| bridges(a, b)).count()
+    grid.mesh.edges().filter(|&(a, b)| bridges(a, b)).collect()
 }
 
 /// Walk below the quarter points of the chord.

@@ -12,7 +12,7 @@ mod members;
 mod panels;
 mod quality;
 
-pub use bridging::count as bridging_members;
+pub use bridging::{count as bridging_members, members as bridges};
 pub use panels::is_folded;
 pub use quality::{Border, Degrees, EdgeLength, Irregular, IrregularNode, Lengths, Quality, Shape};
 
