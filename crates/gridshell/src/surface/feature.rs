@@ -53,10 +53,11 @@ impl Surface {
         let mut dense = self.thin_corners(wanted.edge_length);
         let mut anchors = Vec::new();
         if !wanted.guides.is_empty() || !wanted.anchors.is_empty() {
+            let origin = self.origin;
             let mut cutter = Cutter::new(self, wanted.edge_length);
             for (i, guide) in wanted.guides.iter().enumerate() {
                 let thinned =
-                    thin_guide(i, guide, wanted.corner_angle, wanted.edge_length, self.origin);
+                    thin_guide(i, guide, wanted.corner_angle, wanted.edge_length, origin);
                 let guide = match &thinned {
                     Some((guide, note)) => {
                         notes.push(note.clone());
