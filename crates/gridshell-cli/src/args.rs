@@ -53,7 +53,8 @@ pub struct Reading {
     /// or the size of the model suggests.
     #[arg(long, value_name = "TOL", value_parser = positive, allow_negative_numbers = true)]
     pub sew: Option<f64>,
-    /// Unit of a mesh file that states none, or the wrong one: mm, cm, m, in or ft. Without it metres.
+    /// Unit of a file that states none, or the wrong one: mm, cm, m, in or ft. Without it what the file states, else
+    /// metres.
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     pub units: Option<LengthUnit>,
     /// Layer of a 3DM file to read, by name or path (`Roof::Panels`), with those below it; may be given more than

@@ -6,9 +6,9 @@ use crate::failure::Failure;
 use crate::subject::Subject;
 use crate::{handover, progress, recipe, report, say, table};
 use gridshell::io::{self, Document, GridFile};
+use gridshell::pipeline;
 use gridshell::run::Run;
 use gridshell::structure::Supports;
-use gridshell::{DVec3, pipeline};
 use std::path::{Path, PathBuf};
 
 pub fn run(args: &Generate) -> Result<Outcome, Failure> {
@@ -90,7 +90,7 @@ fn again(surface: &str) -> Result<Option<Document>, Failure> {
 }
 
 fn is_same(run: &Run, before: &Document) -> bool {
-    run.grid.xyz.iter().map(DVec3::to_array).eq(before.nodes.iter().copied())
+    run.grid.xyz.iter().map(|&p| run.origin.world(p).to_array()).eq(before.nodes.iter().copied())
 }
 
 /// `<name>.obj` in the current folder, or `<name>-grid.obj` where that is the surface's own file.

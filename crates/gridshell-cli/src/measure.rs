@@ -50,7 +50,7 @@ pub fn run(args: &Measure) -> Result<Outcome, Failure> {
             grid: name,
             surface: measured.summary(),
             edge_length: subject.edge_length,
-            irregular: irregular_nodes(subject.grid),
+            irregular: irregular_nodes(subject.grid, measured.origin()),
             quality,
             figures,
             valid: measured.validity().is_valid(),

@@ -6,6 +6,7 @@ use gridshell::reopen::Opened;
 use gridshell::run::{Run, SurfaceSummary};
 use gridshell::schedule::{Schedule, Tolerances};
 use gridshell::stages::measure::{Quality, measure};
+use gridshell::surface::Origin;
 use gridshell::validity::Validity;
 
 /// A grid with all that is known of it. Metres.
@@ -44,6 +45,11 @@ impl Measured {
             quality: &self.quality,
             edge_length: self.opened.edge_length,
         }
+    }
+
+    /// Where the grid's coordinates have their origin in those of its file.
+    pub fn origin(&self) -> Origin {
+        self.opened.surface.origin
     }
 
     /// Figures of the design surface, where it is known.

@@ -62,7 +62,8 @@ pub fn taken(laid: &Laid, index: u32, job: &Job) -> Result<Run> {
     let relaxed = stage("relax", clock.elapsed().as_secs_f64(), report.converged, &grid);
     let quality = judge(&grid);
     let validity = Validity::of(&grid, &surface, run.edge_length, &quality);
-    pipeline::refuse_invalid(&validity, &run.recipe, run.edge_length)?;
+    let places = gridshell::surface::Origin::default();
+    pipeline::refuse_invalid(&validity, &run.recipe, places, run.edge_length)?;
     let schedule = Schedule::new(&grid, &surface, &Tolerances::from(options));
     let mut candidates = run.candidates.clone();
     candidates[..=index as usize].rotate_right(1);
@@ -72,7 +73,7 @@ pub fn taken(laid: &Laid, index: u32, job: &Job) -> Result<Run> {
         valid: validity.is_valid(),
         faults: validity.faults,
         figures: schedule.figures.clone(),
-        irregular: irregular_nodes(&grid),
+        irregular: irregular_nodes(&grid, run.origin),
         stages: vec![regularized, relaxed],
         stopped: false,
         schedule,

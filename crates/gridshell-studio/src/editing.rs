@@ -5,7 +5,7 @@ use gridshell::edit::{Edit, Editor, Effect, Refusal};
 use gridshell::error::{Error, Result};
 use gridshell::pipeline;
 use gridshell::run::Run;
-use gridshell::surface::Model;
+use gridshell::surface::{Model, Origin};
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -21,12 +21,14 @@ pub fn editor(model: &Model, run: &Run) -> Result<Editor> {
     Ok(Editor::new(Arc::new(surface), run.grid.clone(), run.recipe.clone(), run.edge_length))
 }
 
-/// The edit that the page means.
+/// The edit that the page means, which draws a surface of this origin.
 ///
 /// # Errors
 /// [`Error::Option`] for what is none.
-pub fn parse(edit: Value) -> Result<Edit> {
-    serde_json::from_value(edit).map_err(|e| Error::Option(format!("not an edit: {e}")))
+pub fn parse(edit: Value, origin: Origin) -> Result<Edit> {
+    let edit: std::result::Result<Edit, _> = serde_json::from_value(edit);
+    let edit = edit.map_err(|e| Error::Option(format!("not an edit: {e}")))?;
+    Ok(edit.from_local(origin))
 }
 
 /// The history, to be told; `before` are the edits that the grid came with.

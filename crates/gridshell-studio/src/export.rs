@@ -115,7 +115,7 @@ fn run(laid: &Laid) -> Value {
     if laid.run.is_none() || !document.edits.is_empty() {
         told["quality"] = json!(quality);
         told["figures"] = json!(schedule.figures);
-        told["irregular"] = json!(irregular_nodes(&grid));
+        told["irregular"] = json!(irregular_nodes(&grid, laid.opened.model.origin()));
         told["edits"] = json!(document.edits);
     }
     told

@@ -1,5 +1,8 @@
 //! Every message between the server and the page. `page/src/messages.ts` is generated from here; a test fails when
 //! the two differ.
+//!
+//! Numbers that are drawn or pointed at are in local coordinates ([`gridshell::surface::Origin`]), which single precision
+//! holds well; what people read is in those of the surface's file.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

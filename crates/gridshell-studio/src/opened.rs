@@ -98,12 +98,13 @@ impl Opened {
     /// # Errors
     /// [`Error::Surface`] where its panels are no surface.
     pub fn alone(document: &Document) -> Result<Opened> {
-        let mesh = PolygonMesh {
+        let mut mesh = PolygonMesh {
             name: document.name.clone(),
             points: document.nodes.iter().map(|&p| p.into()).collect(),
             faces: document.panels.iter().map(|t| t.to_vec()).collect(),
             ..PolygonMesh::default()
         };
+        mesh.settle();
         Opened::new(Model::Mesh(mesh), None, None)
     }
 

@@ -5,12 +5,21 @@ use glam::{DMat4, DVec3};
 use gridshell::degree::adjusted_degree;
 use gridshell::grid::Grid;
 use gridshell::merit;
+use gridshell::surface::Origin;
 
 /// A node is meant rather than a member within this share of the panel's longest side.
 const NEAR_NODE: f64 = 0.28;
 
-/// The nearest panel that the line of sight meets, with its nearest node and member.
-pub fn pick(grid: &Grid, run: u32, question: u32, origin: DVec3, direction: DVec3) -> Picked {
+/// The nearest panel that the line of sight meets, with its nearest node and member; `drawn` is the origin of the
+/// coordinates that the page draws in.
+pub fn pick(
+    grid: &Grid,
+    drawn: Origin,
+    run: u32,
+    question: u32,
+    origin: DVec3,
+    direction: DVec3,
+) -> Picked {
     let mut picked = Picked {
         run,
         question,
@@ -41,16 +50,16 @@ pub fn pick(grid: &Grid, run: u32, question: u32, origin: DVec3, direction: DVec
     picked.member = Some(member);
     picked.member_at = Some(member.map(|v| grid.xyz[v as usize].to_array()));
     picked.node_first = p[n].distance(at) < NEAR_NODE * side.iter().copied().fold(0.0, f64::max);
-    picked.facts = facts(grid, &picked, panel);
+    picked.facts = facts(grid, drawn, &picked, panel);
     picked
 }
 
-fn facts(grid: &Grid, picked: &Picked, panel: [u32; 3]) -> Vec<Fact> {
+fn facts(grid: &Grid, drawn: Origin, picked: &Picked, panel: [u32; 3]) -> Vec<Fact> {
     let fact = |label: &str, value: String| Fact { label: label.into(), value };
     let mesh = &grid.mesh;
     let mut facts = Vec::new();
     if let (Some(v), true) = (picked.node, picked.node_first) {
-        let p = grid.xyz[v as usize];
+        let p = drawn.world(grid.xyz[v as usize]);
         let adjusted = adjusted_degree(mesh, &grid.xyz, v);
         let place = if mesh.is_boundary(v) { "on the boundary" } else { "inside" };
         facts.push(fact("Node", format!("{v}, {place}")));
@@ -118,7 +127,8 @@ mod tests {
     #[test]
     fn a_look_from_above_finds_the_node_or_member_below() {
         let (grid, _) = square();
-        let look = |x: f64, y: f64| pick(&grid, 1, 0, DVec3::new(x, y, 9.0), -DVec3::Z);
+        let drawn = Origin::default();
+        let look = |x: f64, y: f64| pick(&grid, drawn, 1, 0, DVec3::new(x, y, 9.0), -DVec3::Z);
         let corner = look(0.05, 0.03);
         assert!(corner.node_first);
         let p = corner.node_at.unwrap();

@@ -245,9 +245,8 @@ mod tests {
 
     fn grid_file(folder: &Path) {
         let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| glam::dvec3(x, y, 0.0));
-        let (grid, _) = Grid::alone("one", points.to_vec(), &[[0, 1, 2]]).unwrap();
-        let document = Document::of_grid("one", &grid);
-        let (_, surface) = Grid::alone("one", points.to_vec(), &[[0, 1, 2]]).unwrap();
+        let (grid, surface) = Grid::alone("one", points.to_vec(), &[[0, 1, 2]]).unwrap();
+        let document = Document::of_grid("one", &grid, surface.origin);
         let schedule = gridshell::schedule::Schedule::new(
             &grid,
             &surface,

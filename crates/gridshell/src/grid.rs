@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::surface::{Chain, ChainPoint, Locator, Surface, SurfacePoint};
+use crate::surface::{Chain, ChainPoint, Locator, Origin, Surface, SurfacePoint};
 use glam::DVec3;
 
 /// A node on a line slides at most this share of the way to the next node there.
@@ -271,14 +271,20 @@ impl Grid {
         Ok(Grid { mesh: Mesh::from_triangles(xyz.len(), &turned)?, places, xyz })
     }
 
-    /// A grid that is its own surface: what can be measured when the design surface is not known.
+    /// A grid that is its own surface: what can be measured when the design surface is not known. Its nodes are given
+    /// in the coordinates of a file.
     ///
     /// # Errors
     /// [`Error::Surface`] when the panels are not a manifold.
-    pub fn alone(name: &str, xyz: Vec<DVec3>, panels: &[[u32; 3]]) -> Result<(Grid, Surface)> {
+    pub fn alone(name: &str, mut xyz: Vec<DVec3>, panels: &[[u32; 3]]) -> Result<(Grid, Surface)> {
         // Checked before the surface is made, which trusts its triangles.
         Mesh::from_triangles(xyz.len(), panels)?;
-        let surface = Surface::from_facets(name, xyz.clone(), panels.to_vec());
+        let origin = Origin::of_points(&xyz);
+        for p in &mut xyz {
+            *p = origin.local(*p);
+        }
+        let mut surface = Surface::from_facets(name, xyz.clone(), panels.to_vec());
+        surface.origin = origin;
         let grid = Grid::from_panels(xyz, panels, &surface)?;
         Ok((grid, surface))
     }

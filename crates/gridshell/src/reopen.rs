@@ -61,8 +61,11 @@ fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Op
     // Where both are given, the unit is the surface's: our grids state their own.
     let of_grid = if surface.is_some() { Opening::default() } else { opening.clone() };
     let mesh = io::read_mesh_with(path, &of_grid)?;
-    let PolygonMesh { name, points, faces, mut notes, source, .. } = mesh;
+    let PolygonMesh { name, mut points, faces, mut notes, source, origin, .. } = mesh;
     let mut losses = source.told_losses();
+    for p in &mut points {
+        *p = origin.world(*p);
+    }
     let panels = panels(path, &faces)?;
     let edge_length = mean_side(&points, &panels);
     let recipe = Recipe::default();
@@ -74,7 +77,8 @@ fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Op
         Some(wanted) => {
             let model = io::open_with(wanted, opening)?;
             let surface = sample(&model, edge_length, &recipe)?;
-            let grid = Grid::from_panels(points, &panels, &surface)?;
+            let xyz = points.iter().map(|&p| surface.origin.local(p)).collect();
+            let grid = Grid::from_panels(xyz, &panels, &surface)?;
             let summary = SurfaceSummary::new(&model, &surface);
             notes.extend_from_slice(model.notes());
             losses.extend(model.source().told_losses());
@@ -82,7 +86,11 @@ fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Op
         }
     };
     let supports = Supports::Boundary.nodes(&grid, &surface)?;
-    let document = Document { surface: reference, supports, ..Document::of_grid(&name, &grid) };
+    let document = Document {
+        surface: reference,
+        supports,
+        ..Document::of_grid(&name, &grid, surface.origin)
+    };
     Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes, losses })
 }
 
@@ -137,9 +145,16 @@ pub fn restore(document: Document, model: Option<&Model>) -> Result<Opened> {
         None => sample(model, edge_length, &recipe)?,
     };
     let summary = Some(SurfaceSummary::new(model, &surface));
+    let xyz: Vec<DVec3> = xyz.into_iter().map(|p| surface.origin.local(p)).collect();
     let grid = match at_places(&document, &xyz, &surface, edge_length) {
         Some(places) => {
             let mesh = Mesh::from_triangles(xyz.len(), &document.panels)?;
+            // A node far from the origin has lost its last digits in the file; its place knows them.
+            let there = |((&x, place), node): ((&DVec3, &Place), &[f64; 3])| {
+                let exact = place.exact(&surface);
+                if surface.origin.world(exact).to_array() == *node { exact } else { x }
+            };
+            let xyz = xyz.iter().zip(&places).zip(&document.nodes).map(there).collect();
             Grid { mesh, places, xyz }
         }
         None => Grid::from_panels(xyz, &document.panels, &surface)?,
@@ -212,7 +227,7 @@ pub fn edited(document: &Document, editor: &Editor) -> Document {
     let whole = !held.is_empty() && kept.clone().all(|v| held.binary_search(v).is_ok());
     let supports = if whole { border } else { held };
     let done = editor.history().map(|(edit, _)| serde_json::json!(edit));
-    let fresh = Document::of_grid(&document.name, &grid);
+    let fresh = Document::of_grid(&document.name, &grid, editor.surface().origin);
     // No edit makes a valid grid invalid, but one may mend it.
     let invalid = document.invalid.as_ref().and_then(|_| {
         let look = editor.validity(&grid);

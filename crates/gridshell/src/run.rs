@@ -8,7 +8,7 @@ use crate::math::digits::at_least;
 use crate::recipe::{self, Recipe};
 use crate::schedule::{Figures, Schedule};
 use crate::stages::measure::{Border, IrregularNode, Quality};
-use crate::surface::{Loss, Model, Sewing, Smoothing, Surface};
+use crate::surface::{Loss, Model, Origin, Sewing, Smoothing, Surface};
 use crate::validity::{self, Fault};
 use glam::DVec3;
 use serde::Serialize;
@@ -60,6 +60,9 @@ pub struct Run {
     pub warnings: Vec<String>,
     /// Whether a limit or a signal stopped it early; the grid is then the best so far.
     pub stopped: bool,
+    /// Where the coordinates of all grids have their origin in those of the surface's file.
+    #[serde(skip)]
+    pub origin: Origin,
     /// The final grid.
     #[serde(skip)]
     pub grid: Grid,
@@ -143,7 +146,7 @@ impl PartSummary {
             faces: faces.len(),
             area: surface.map_or(0.0, |s| s.area),
             loops: surface.map_or(0, |s| s.loops.len()),
-            bounds: surface.map_or(Bounds::of(&[]), |s| Bounds::of(&s.carrier.points)),
+            bounds: surface.map_or(Bounds::of(&[]), Bounds::of_surface),
             objects: model.objects_of(faces),
             fault: surface.err().map(ToString::to_string),
         }
@@ -327,7 +330,7 @@ impl SurfaceSummary {
             loops: boundaries.len(),
             corners: boundaries.iter().map(|b| b.corners).sum(),
             boundaries,
-            bounds: Bounds::of(&surface.carrier.points),
+            bounds: Bounds::of_surface(surface),
             unit_in_metres,
             gap,
             edge_gap: edge_gap(surface),
@@ -340,6 +343,12 @@ impl SurfaceSummary {
 }
 
 impl Bounds {
+    /// The box of the exact surface, in the coordinates of its file.
+    pub fn of_surface(surface: &Surface) -> Bounds {
+        let [min, max] = surface.extent().map(|p| surface.origin.world(p).to_array());
+        Bounds { min, max }
+    }
+
     /// The box of these points; zero without any.
     pub fn of(points: &[DVec3]) -> Bounds {
         let Some(&first) = points.first() else { return Bounds { min: [0.0; 3], max: [0.0; 3] } };

@@ -61,7 +61,7 @@ pub enum Kind {
 pub struct Fault {
     /// What.
     pub kind: Kind,
-    /// Where, metres.
+    /// Where, metres in the surface's file.
     pub at: [f64; 3],
     /// The nodes concerned; none where it is the whole grid.
     pub nodes: Vec<u32>,
@@ -101,6 +101,7 @@ impl Validity {
     pub fn of(grid: &Grid, surface: &Surface, length: f64, quality: &Quality) -> Validity {
         if let Err(message) = grid.mesh.check() {
             let at = grid.xyz.first().copied().unwrap_or_default();
+            let at = surface.origin.world(at);
             return Validity {
                 faults: vec![fault(Kind::Manifold, at, &[], message)],
                 ..Validity::default()
@@ -120,6 +121,9 @@ impl Validity {
         }
         if quality.surface_deviation.max(quality.boundary_deviation) > OFF {
             found.off(grid, surface, length);
+        }
+        for fault in found.faults.iter_mut().chain(&mut found.demanded) {
+            fault.at = surface.origin.world(fault.at.into()).to_array();
         }
         found
     }

@@ -6,7 +6,7 @@
 
 #[cfg(feature = "3dm")]
 use gridshell::io::Choice;
-use gridshell::io::Opening;
+use gridshell::io::{LengthUnit, Opening};
 use gridshell::mesh::Mesh;
 use gridshell::surface::{Chain, Model, Sampling, Surface, SurfacePoint};
 use std::path::{Path, PathBuf};
@@ -172,6 +172,65 @@ fn layers_and_objects_of_a_rhino_file_are_chosen_by_name() {
     assert!(matches!(&mesh, Model::Mesh(m) if !m.faces.is_empty()));
     let unknown = load(&["roof"], &[]).unwrap_err().to_string();
     assert!(unknown.contains("tubes") && unknown.contains("solids"), "{unknown}");
+}
+
+/// Tags are often wrong: the unit that was asked for goes before the one that the file states, in any format, and is told.
+#[test]
+fn a_unit_that_was_asked_for_goes_before_the_files() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files");
+    let mut files = vec![
+        "roof_mm_ap214.step",
+        "roof_inch_ap242.step",
+        "roof_mm.igs",
+        "offset_free.step",
+        "offset_tube.step",
+    ];
+    if cfg!(feature = "3dm") {
+        files.extend(["patch_v5_mm.3dm", "patch_v8_in.3dm"]);
+    }
+    for file in files {
+        let load = |unit| {
+            gridshell::io::load(&folder.join(file), &Opening { unit, ..Opening::default() })
+                .unwrap()
+        };
+        let area = |model: &Model| sampled(model, EDGE * model.size()).unwrap().area;
+        let unit_of = |model: &Model| match model {
+            Model::Brep(brep) => brep.unit_in_metres,
+            Model::Mesh(_) => 1.0,
+        };
+        let stated = load(None);
+        for (unit, metres) in [(LengthUnit::Metre, 1.0), (LengthUnit::Foot, 0.3048)] {
+            let wanted = load(Some(unit));
+            let factor = metres / unit_of(&stated);
+            let share = area(&wanted) / (area(&stated) * factor * factor);
+            assert!((share - 1.0).abs() < 1e-6, "{file}: {share}");
+            assert_eq!(unit_of(&wanted), metres, "{file}");
+            let told = wanted.notes().iter().any(|n| n.contains("was asked for"));
+            assert_eq!(told, factor != 1.0, "{file}: {:?}", wanted.notes());
+        }
+    }
+}
+
+/// A model that no one builds at its size most likely has the wrong unit, be it patches or a mesh.
+#[test]
+fn an_odd_size_is_told_of_patches_and_meshes() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files");
+    let odd = |path: &Path, unit| {
+        let opening = Opening { unit: Some(unit), ..Opening::default() };
+        let model = gridshell::io::load(path, &opening).unwrap();
+        model.notes().iter().any(|n| n.contains("m across") && n.contains("--units"))
+    };
+    let step = folder.join("roof_m_ap203.step");
+    assert!(!odd(&step, LengthUnit::Metre) && odd(&step, LengthUnit::Millimetre));
+    for (end, text) in [
+        ("obj", "v 0 0 0\nv 10 0 0\nv 0 10 0\nf 1 2 3\n"),
+        ("off", "OFF\n3 1 0\n0 0 0\n10 0 0\n0 10 0\n3 0 1 2\n"),
+    ] {
+        let path = std::env::temp_dir().join(format!("gridshell-odd-{}.{end}", std::process::id()));
+        std::fs::write(&path, text).unwrap();
+        assert!(!odd(&path, LengthUnit::Metre) && odd(&path, LengthUnit::Millimetre));
+        std::fs::remove_file(&path).unwrap();
+    }
 }
 
 /// The class of an object, or of a part of one, made one that nobody knows: as new versions of Rhino write them.

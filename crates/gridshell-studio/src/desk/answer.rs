@@ -13,6 +13,7 @@ use gridshell::io::Choice;
 use gridshell::pipeline;
 use gridshell::recipe::Recipe;
 use gridshell::stages::measure::irregular_nodes;
+use gridshell::surface::Origin;
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -67,7 +68,8 @@ impl Desk {
             Request::Pick { run, origin, direction, question } => {
                 let laid = self.laid(run)?;
                 let [origin, direction] = [origin, direction].map(DVec3::from);
-                one(Event::Picked(pick::pick(&laid.grid(), run, question, origin, direction)))
+                let (grid, drawn) = (laid.grid(), laid.opened.model.origin());
+                one(Event::Picked(pick::pick(&grid, drawn, run, question, origin, direction)))
             }
             Request::Select { run, matrix, rectangle } => one(self.select(run, matrix, rectangle)?),
             Request::Distance { from, to } => {
@@ -132,7 +134,7 @@ impl Desk {
         let matrix =
             matrix.try_into().map_err(|_| Error::Option("a matrix has 16 numbers".into()))?;
         let nodes = pick::within(&grid, &matrix, rectangle);
-        let odd = irregular_nodes(&grid);
+        let odd = irregular_nodes(&grid, Origin::default());
         let odd = odd.iter().filter(|n| nodes.binary_search(&n.node).is_ok());
         let irregular = odd.count() as u32;
         Ok(Event::Selected { run, nodes, irregular })
@@ -152,7 +154,7 @@ impl Desk {
 
     /// Do an edit.
     fn edit(self: &Arc<Self>, run: u32, edit: Value) -> Result<Vec<Outgoing>> {
-        let edit = editing::parse(edit)?;
+        let edit = editing::parse(edit, self.laid(run)?.opened.model.origin())?;
         let work = self.begin(run, &edit.to_string())?;
         self.edited(run, |editor| {
             let done = editor.apply_with(edit, &work.job).map(|_| ());

@@ -13,13 +13,14 @@ const OFF: f64 = 0.5;
 const ALIKE: f64 = 1e-6;
 
 impl Workbench<'_> {
-    /// Bring the nearest node to `at`, fix it there, and balance the nodes round it.
+    /// Bring the nearest node to `at` (in the file's coordinates), fix it there, and balance the nodes round it.
     pub(super) fn add_anchor(&mut self, at: [f64; 3]) -> Result<Vec<u32>, Refusal> {
-        let at = DVec3::from_array(at);
+        let origin = self.editor.surface.origin;
+        let at = origin.local(at.into());
         let length = self.editor.edge_length;
         let Some((v, place, off)) = self.nearest(at).filter(|n| n.2 <= OFF * length) else {
             return Err(Refusal::new(
-                format!("no free node can come to ({:.3}, {:.3}, {:.3})", at.x, at.y, at.z),
+                format!("no free node can come to {}", origin.told(at)),
                 "give a point on the surface, with a node beside it that is neither fixed nor on a crease or guide",
             ));
         };

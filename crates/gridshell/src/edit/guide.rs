@@ -13,7 +13,7 @@ const SAME: f64 = 1e-6;
 /// Cut a guide into the surface and bring the row of nodes nearest to it onto it.
 pub(super) fn add(editor: &Editor, points: &[[f64; 3]]) -> Result<Outcome, Refusal> {
     let length = editor.edge_length;
-    let guide: Vec<DVec3> = points.iter().map(|&p| p.into()).collect();
+    let guide: Vec<DVec3> = points.iter().map(|&p| editor.surface.origin.local(p.into())).collect();
     if guide.len() < 2 || guide.iter().any(|p| !p.is_finite() || p.length() > 1e9) {
         return Err(Refusal::new("that is no line", "give two points or more on the surface"));
     }

@@ -4,6 +4,7 @@ use super::{Edit, Editor};
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
 use crate::recipe::Recipe;
+use crate::surface::Origin;
 use serde::{Deserialize, Serialize};
 
 /// Name and version of the schema.
@@ -123,7 +124,7 @@ impl Editor {
 }
 
 /// Fingerprint (FNV-1a, 64 bits) of a grid with its edge length and recipe.
-pub(super) fn digest(grid: &Grid, recipe: &Recipe, edge_length: f64) -> String {
+pub(super) fn digest(grid: &Grid, origin: Origin, recipe: &Recipe, edge_length: f64) -> String {
     let mut hash = Hash(0xcbf29ce484222325);
     let recipe = serde_json::to_string(recipe).expect("a recipe has string keys");
     hash.bytes(recipe.as_bytes());
@@ -137,7 +138,7 @@ pub(super) fn digest(grid: &Grid, recipe: &Recipe, edge_length: f64) -> String {
         hash.bytes(&[u8::from(grid.mesh.is_pinned(v))]);
         let along = grid.mesh.along_features(v).iter();
         along.for_each(|w| hash.bytes(&w.to_le_bytes()));
-        grid.xyz[v as usize].to_array().into_iter().for_each(|x| hash.number(x));
+        origin.world(grid.xyz[v as usize]).to_array().into_iter().for_each(|x| hash.number(x));
         hash.place(&grid.places[v as usize]);
     }
     format!("{:016x}", hash.0)

@@ -103,7 +103,7 @@ impl Editor {
     pub fn new(surface: Arc<Surface>, mut grid: Grid, recipe: Recipe, edge_length: f64) -> Editor {
         fix_corners(&surface, &mut grid, AT_CORNER * edge_length);
         grid.mesh.retire_removed();
-        let start = log::digest(&grid, &recipe, edge_length);
+        let start = log::digest(&grid, surface.origin, &recipe, edge_length);
         let (done, undone) = (Vec::new(), Vec::new());
         let sums = Sums::default();
         let irregular = 0;

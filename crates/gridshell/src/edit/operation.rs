@@ -1,5 +1,6 @@
 //! What can be done to a grid by hand, as it stands in a log.
 
+use crate::surface::Origin;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -41,7 +42,7 @@ pub enum Edit {
     Move {
         /// The node.
         node: u32,
-        /// Target, metres.
+        /// Target, metres in the surface's file.
         to: [f64; 3],
     },
     /// Let a node neither move nor be removed.
@@ -56,7 +57,7 @@ pub enum Edit {
     },
     /// Bring the nearest node to a point of the surface and fix it there.
     AddAnchor {
-        /// The point, metres.
+        /// The point, metres in the surface's file.
         at: [f64; 3],
     },
     /// Free a node that an anchor fixes.
@@ -66,7 +67,7 @@ pub enum Edit {
     },
     /// Bring the nearest row of nodes onto a line, which members follow from then on.
     AddGuide {
-        /// Points of a polyline on the surface, metres.
+        /// Points of a polyline on the surface, metres in its file.
         points: Vec<[f64; 3]>,
     },
     /// Let members no longer follow the crease or guide, from one of its fixed nodes to the next, that this member is
@@ -94,6 +95,20 @@ pub enum Edit {
     },
     /// Move all nodes to an even balance.
     RelaxAll {},
+}
+
+impl Edit {
+    /// An edit whose places are given in coordinates of this origin, as logs have it: in those of the surface's file.
+    #[must_use]
+    pub fn from_local(mut self, origin: Origin) -> Edit {
+        let place = |p: &mut [f64; 3]| *p = origin.world((*p).into()).to_array();
+        match &mut self {
+            Edit::Move { to: at, .. } | Edit::AddAnchor { at } => place(at),
+            Edit::AddGuide { points } => points.iter_mut().for_each(place),
+            _ => {}
+        }
+        self
+    }
 }
 
 impl fmt::Display for Edit {

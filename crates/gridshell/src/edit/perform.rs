@@ -5,7 +5,6 @@ use super::{Edit, Refusal, line};
 use crate::grid::Place;
 use crate::stages::regularize::{drift_path, heal};
 use crate::stages::relax::relax;
-use glam::DVec3;
 
 /// Trials of healing for each irregular node.
 const TRIALS: usize = 400;
@@ -128,7 +127,7 @@ impl Workbench<'_> {
 
     fn move_node(&mut self, v: u32, to: [f64; 3]) -> Result<Vec<u32>, Refusal> {
         self.check_node(v)?;
-        let target = DVec3::from_array(to);
+        let target = self.editor.surface.origin.local(to.into());
         let grid = self.grid();
         let at = grid.xyz[v as usize];
         if grid.places[v as usize].is_fixed() {

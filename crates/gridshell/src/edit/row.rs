@@ -85,10 +85,7 @@ impl Workbench<'_> {
             grid.mesh.vertices().filter(fits).min_by(|v, w| apart(v).total_cmp(&apart(w)));
         let Some(v) = nearest.filter(|v| apart(v) <= REACH * self.editor.edge_length) else {
             return Err(Refusal::new(
-                format!(
-                    "no free node is near the guide's end ({:.3}, {:.3}, {:.3})",
-                    at.x, at.y, at.z
-                ),
+                format!("no free node is near the guide's end {}", surface.origin.told(at)),
                 "end it at a free node, or at one that is fixed there",
             ));
         };

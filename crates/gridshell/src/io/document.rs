@@ -5,7 +5,7 @@ use super::Reference;
 use crate::grid::{Grid, Place};
 use crate::recipe::Recipe;
 use crate::run::Run;
-use crate::surface::{ChainPoint, SurfacePoint};
+use crate::surface::{ChainPoint, Origin, SurfacePoint};
 use glam::DVec3;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
@@ -34,7 +34,7 @@ pub struct Document {
     pub edge_length: Option<f64>,
     /// The recipe, complete; None where no run is known.
     pub recipe: Option<Recipe>,
-    /// Positions of the nodes.
+    /// Positions of the nodes, in the coordinates of the surface's file.
     pub nodes: Vec<[f64; 3]>,
     /// Where each node sits on the surface; empty where that is not known.
     pub places: Vec<PlaceRecord>,
@@ -70,8 +70,8 @@ pub enum PlaceRecord {
 }
 
 impl Document {
-    /// A grid of which nothing else is known.
-    pub fn of_grid(name: &str, grid: &Grid) -> Document {
+    /// A grid of which nothing else is known, whose coordinates have this origin.
+    pub fn of_grid(name: &str, grid: &Grid, origin: Origin) -> Document {
         let mut panels: Vec<[u32; 3]> = grid.mesh.triangles().collect();
         panels.sort_unstable();
         let mut features: Vec<[u32; 2]> = grid
@@ -90,7 +90,7 @@ impl Document {
             seed: None,
             edge_length: None,
             recipe: None,
-            nodes: grid.xyz.iter().map(DVec3::to_array).collect(),
+            nodes: grid.xyz.iter().map(|&p| origin.world(p).to_array()).collect(),
             places: Vec::new(),
             panels,
             features,
@@ -110,8 +110,9 @@ impl Document {
         );
         // Of nodes as near as each other the first.
         let anchor = |p: &[f64; 3]| {
-            let (_, reach) = nodes.nearest_neighbor_with_distance_2(*p)?;
-            nodes.locate_within_distance(*p, reach).map(|n| n.data).min()
+            let p = run.origin.local(DVec3::from_array(*p)).to_array();
+            let (_, reach) = nodes.nearest_neighbor_with_distance_2(p)?;
+            nodes.locate_within_distance(p, reach).map(|n| n.data).min()
         };
         Document {
             surface: Some(reference),
@@ -122,7 +123,7 @@ impl Document {
             anchors: run.recipe.anchors.iter().filter_map(anchor).collect(),
             supports,
             invalid: run.invalid(),
-            ..Document::of_grid(&run.surface.name, grid)
+            ..Document::of_grid(&run.surface.name, grid, run.origin)
         }
     }
 }

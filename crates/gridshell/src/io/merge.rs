@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 /// Vertices closer than this share of the model's box are the same.
 const SAME: f64 = 1e-9;
-/// And where the file holds single precision, those within this many of its roundings,
+/// And those within this many roundings of the file's coordinates,
 const ROUNDINGS: f64 = 2.0;
 /// but never beyond this share of the model's box.
 const MOST: f64 = 1e-5;
@@ -34,11 +34,10 @@ pub(super) fn tolerance(work: &Work, digits: Digits, wanted: Option<f64>) -> Res
     let (low, high) = bounds(work.points.iter().zip(&used).filter(|p| *p.1).map(|p| *p.0));
     let size = (high - low).length();
     let rounding = match digits {
-        Digits::Double => 0.0,
-        Digits::Single => {
-            low.abs().max(high.abs()).max_element() * f64::from(f32::EPSILON) * ROUNDINGS
-        }
+        Digits::Double => f64::EPSILON,
+        Digits::Single => f64::from(f32::EPSILON),
     };
+    let rounding = low.abs().max(high.abs()).max_element() * rounding * ROUNDINGS;
     let usual = rounding.min(MOST * size).max(SAME * size);
     match wanted {
         Some(t) if !(0.0..=MOST_WANTED * size).contains(&t) => Err(Error::Option(format!(

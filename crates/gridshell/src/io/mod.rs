@@ -76,7 +76,7 @@ pub struct Opening {
     /// Edges of different faces that lie within this many metres of each other are one edge; without it, what the
     /// file or the size of the model suggests.
     pub sew: Option<f64>,
-    /// Unit of the lengths in a mesh file, where the file states none or the wrong one; without it metres.
+    /// Unit of the file's lengths, where it states none or the wrong one; without it what it states, else metres.
     pub unit: Option<LengthUnit>,
     /// Which objects are read, in a format that names them.
     pub choice: Choice,
@@ -114,8 +114,7 @@ pub fn open_with(name_or_path: &str, opening: &Opening) -> Result<Model> {
 /// # Errors
 /// [`Error::Io`], [`Error::Parse`] with line or entity, [`Error::Surface`] where the contents are no
 /// manifold surface, [`Error::Option`] listing the known extensions for an unknown one, where the sewing tolerance is
-/// too large for the model, where a unit is given for a format that always states its own, or objects are chosen
-/// that are not there.
+/// too large for the model, or objects are chosen that are not there.
 pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
     if mesh_reader(path).is_some() {
         return read_mesh_with(path, opening).map(Model::Mesh);
@@ -126,12 +125,16 @@ pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
         "3dm" => rhino(path, &opening.choice),
         _ => Err(unknown(path, SURFACE_FORMATS)),
     }?;
-    refuse_unit(path, opening)?;
+    unit::take(&mut model, opening.unit)?;
+    model.settle()?;
     let odd = odd_size(model.size());
-    if let Model::Brep(brep) = &mut model {
-        sew(brep, opening.sew)?;
-        split_folds(brep);
-        brep.notes.extend(odd);
+    match &mut model {
+        Model::Brep(brep) => {
+            sew(brep, opening.sew)?;
+            split_folds(brep);
+            brep.notes.extend(odd);
+        }
+        Model::Mesh(mesh) => mesh.notes.extend(odd),
     }
     Ok(model)
 }
@@ -140,8 +143,7 @@ pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
 fn odd_size(size: f64) -> Option<String> {
     (!(LEAST_SIZE..=MOST_SIZE).contains(&size)).then(|| {
         format!(
-            "the model is {size:.3e} m across by the unit that its file states; if it should not be, mend the unit \
-             in the program that wrote it"
+            "the model is {size:.3e} m across; if it should not be, say in which unit its lengths are (--units)"
         )
     })
 }
@@ -170,15 +172,6 @@ fn unnamed(path: &Path, opening: &Opening) -> Result<()> {
     )))
 }
 
-fn refuse_unit(path: &Path, opening: &Opening) -> Result<()> {
-    let Some(unit) = opening.unit else { return Ok(()) };
-    Err(Error::Option(format!(
-        "{}: the format states its own unit; leave out `--units {}`",
-        path.display(),
-        unit.name()
-    )))
-}
-
 /// As [`read_mesh_with`], in the usual way.
 ///
 /// # Errors
@@ -194,12 +187,11 @@ pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
 pub fn read_mesh_with(path: &Path, opening: &Opening) -> Result<PolygonMesh> {
     let read = mesh_reader(path).ok_or_else(|| unknown(path, MESH_FORMATS))?;
     unnamed(path, opening)?;
-    if matches!(extension(path).as_str(), "gltf" | "glb") {
-        refuse_unit(path, opening)?;
-    }
     let mut mesh = weld::weld(path, read(path)?, opening)?;
     let losses = std::mem::take(&mut mesh.source.losses);
     mesh.source = Source { losses, ..Source::of_format(&extension(path).to_uppercase()) };
+    mesh.settle();
+    mesh.notes.extend(odd_size(mesh.size()));
     Ok(mesh)
 }
 

@@ -6,6 +6,7 @@ use super::soup::{Digits, Soup};
 use super::{LengthUnit, file, scan, text, weld};
 use crate::error::Result;
 use glam::{DVec3, Vec3};
+use std::fmt::Write;
 use std::path::Path;
 
 /// Bytes of the binary head: 80 of text and the count.
@@ -14,6 +15,10 @@ const HEAD: usize = 84;
 const FACET: usize = 50;
 /// Single precision is taken to have lost shape where its step exceeds this share of the model's box.
 const COARSE: f64 = 1e-5;
+
+/// A grid is written as text where the step of single precision exceeds this share of the mean member: less and files
+/// of large roofs would be five times as long for nothing, more and their panels would be told apart by the format.
+const COARSE_MEMBER: f64 = 1e-4;
 
 /// Read a binary or text STL file, told apart by its length: binary files may begin with `solid` too.
 ///
@@ -90,7 +95,8 @@ fn read_text(path: &Path, bytes: &[u8]) -> Result<Soup> {
                 };
                 push_facet(&mut soup, facet);
             }
-            None | Some("solid" | "facet" | "outer" | "endfacet" | "endsolid" | "color") => {}
+            Some("solid") => soup.unit = soup.unit.or_else(|| LengthUnit::stated(line.text)),
+            None | Some("facet" | "outer" | "endfacet" | "endsolid" | "color") => {}
             Some(word) => {
                 return Err(line.error(format!("`{}` is no word of STL", scan::clip(word))));
             }
@@ -123,12 +129,19 @@ fn note_precision(soup: &mut Soup) {
     }
 }
 
-/// The grid as binary STL; the format has no place for members, and 80 letters for the rest.
+/// The grid as binary STL, or as text where single precision would move its nodes; the format has no place for members,
+/// and 80 letters for the rest.
 pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
-    // It must not begin with `solid`, which marks the text form.
     let document = grid.document;
     let seed = document.seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
     let title = format!("gridshell {}{seed}, unit metre", document.version);
+    let farthest =
+        grid.schedule.nodes.xyz.iter().fold(0.0, |d: f64, p| d.max(p.abs().max_element()));
+    let step = farthest * f64::from(f32::EPSILON);
+    if step > COARSE_MEMBER * grid.schedule.figures.length.spread.mean {
+        return encode_text(grid, &title);
+    }
+    // It must not begin with `solid`, which marks the text form.
     let mut out: Vec<u8> = title.bytes().chain(std::iter::repeat(b' ')).take(80).collect();
     let panels = &grid.schedule.panels;
     out.extend((panels.nodes.len() as u32).to_le_bytes());
@@ -142,4 +155,19 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
         out.extend([0, 0]);
     }
     out
+}
+
+fn encode_text(grid: &GridFile, title: &str) -> Vec<u8> {
+    let panels = &grid.schedule.panels;
+    let mut out = format!("solid {title}\n");
+    for (t, n) in panels.nodes.iter().zip(&panels.normal) {
+        let _ = writeln!(out, "facet normal {} {} {}\nouter loop", n.x, n.y, n.z);
+        for v in t {
+            let p = grid.schedule.nodes.xyz[*v as usize];
+            let _ = writeln!(out, "vertex {} {} {}", p.x, p.y, p.z);
+        }
+        out.push_str("endloop\nendfacet\n");
+    }
+    out.push_str("endsolid\n");
+    out.into_bytes()
 }

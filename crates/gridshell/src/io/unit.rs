@@ -1,6 +1,7 @@
-//! The unit of a file's lengths, as the designer says it or the file's comments do.
+//! The unit of a file's lengths, as the designer says it or the file does.
 
 use crate::error::{Error, Result};
+use crate::surface::{Model, Unit};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
@@ -56,6 +57,43 @@ impl LengthUnit {
         }
         rest.into_iter().filter(|w| !w.eq_ignore_ascii_case("in")).find_map(word)
     }
+}
+
+/// Units are the same where their lengths differ by no more than this share.
+const SAME: f64 = 1e-9;
+
+/// Have a model's lengths in the unit that is wanted, whatever its file states: tags are often wrong.
+///
+/// # Errors
+/// As [`Model::scale`].
+pub(super) fn take(model: &mut Model, wanted: Option<LengthUnit>) -> Result<()> {
+    let Some(wanted) = wanted else { return Ok(()) };
+    let of_brep = match model {
+        Model::Brep(brep) => Some(Unit::of_metres(brep.unit_in_metres)),
+        Model::Mesh(_) => None,
+    };
+    let stated = model.source().unit.clone().or(of_brep).unwrap_or_else(|| Unit::of_metres(1.0));
+    let factor = wanted.metres() / stated.metres;
+    if (factor - 1.0).abs() <= SAME {
+        return Ok(());
+    }
+    model.scale(factor)?;
+    let note = format!("the file states {}, but {} was asked for", stated.name, wanted.name());
+    let source = match model {
+        Model::Brep(brep) => {
+            brep.unit_in_metres = wanted.metres();
+            brep.notes.push(note);
+            &mut brep.source
+        }
+        Model::Mesh(mesh) => {
+            mesh.notes.push(note);
+            &mut mesh.source
+        }
+    };
+    for area in source.losses.iter_mut().filter_map(|l| l.area.as_mut()) {
+        *area *= factor * factor;
+    }
+    Ok(())
 }
 
 /// The unit that one word means.

@@ -81,7 +81,7 @@ pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening) -> Result<Polygon
         faces,
         notes,
         source: Source { losses, ..Source::default() },
-        smoothing: None,
+        ..PolygonMesh::default()
     })
 }
 

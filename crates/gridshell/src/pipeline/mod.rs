@@ -10,6 +10,7 @@ mod effort;
 mod missing;
 mod narrow;
 mod parts;
+mod places;
 mod repair;
 mod smoothing;
 mod starts;
@@ -28,6 +29,7 @@ use crate::stages::triangulate;
 use crate::surface::{Model, Ruler, Sampling, Surface, builtin};
 use crate::validity::Validity;
 pub use missing::check_whole;
+use places::local;
 use rayon::prelude::*;
 pub use smoothing::smoothed;
 use starts::{Start, Starts};
@@ -49,7 +51,10 @@ const SENSIBLE_NODES: usize = 1000;
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
     check_whole(model, recipe)?;
-    parts::generate(&*smoothed(model, recipe)?, recipe, job)
+    let run = parts::generate(&*smoothed(model, recipe)?, &local(recipe, model.origin()), job)?;
+    // As it was given, but for what turned out on the way.
+    let skip_parts = run.recipe.skip_parts.clone();
+    Ok(Run { recipe: Recipe { skip_parts, ..recipe.clone() }, ..run })
 }
 
 /// Lay a grid on a model of one part; the surface that it was laid on is given too.
@@ -58,8 +63,8 @@ fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
     let make = |l: f64| model.surface(&sampling(l, nodes, recipe));
     let (surface, mut fixed) = wishes::surface(recipe, length, make)?;
     let size = Scale { length, nodes };
-    if let Some(group) = symmetry::group(&surface, model, recipe, length)? {
-        let run = symmetry::generate(model, &surface, &group, recipe, &size, fixed, job)?;
+    if let Some(found) = symmetry::group(&surface, model, recipe, length)? {
+        let run = symmetry::generate(model, &surface, &found, recipe, &size, fixed, job)?;
         return Ok((run, surface));
     }
     if recipe.symmetry != Symmetry::None {
@@ -75,7 +80,7 @@ fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
 /// As [`generate`].
 pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
     recipe.validate()?;
-    parts::surface(&*smoothed(model, recipe)?, recipe)
+    parts::surface(&*smoothed(model, recipe)?, &local(recipe, model.origin()))
 }
 
 /// The surface of a model of one part, and the wanted member length in metres.
@@ -188,7 +193,7 @@ fn finish(
     grid: Grid,
     job: &Job,
 ) -> Result<Run> {
-    verdict::check(&validity, recipe, length)?;
+    verdict::check(&validity, recipe, surface.origin, length)?;
     let mut warnings = warnings;
     warnings.extend(validity.warnings());
     warnings.extend(verdict::node_count(recipe, quality.nodes));
@@ -206,13 +211,14 @@ fn finish(
         failed: Vec::new(),
         candidates,
         stages,
-        irregular: irregular_nodes(&grid),
+        irregular: irregular_nodes(&grid, surface.origin),
         quality,
         figures: schedule.figures.clone(),
         valid: validity.is_valid(),
         faults: validity.faults,
         warnings,
         stopped: job.stopped(),
+        origin: surface.origin,
         grid,
         schedule,
     })
@@ -229,8 +235,8 @@ fn warnings(surface: &Surface, wanted: usize, report: &triangulate::Report) -> V
         .iter()
         .map(|p| {
             format!(
-                "a node was added near ({:.3}, {:.3}, {:.3}): the surface is narrower there than a member",
-                p.x, p.y, p.z
+                "a node was added near {}: the surface is narrower there than a member",
+                surface.origin.told(*p)
             )
         })
         .collect();
@@ -261,7 +267,7 @@ fn sampling(length: f64, nodes: f64, recipe: &Recipe) -> Sampling {
 /// [`Error::Option`] as [`Recipe::check_edge_length`], [`Error::Surface`] as
 /// [`Model::surface`].
 pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
-    Ok(scale(model, recipe)?.length)
+    Ok(scale(model, &local(recipe, model.origin()))?.length)
 }
 
 /// How large a grid is.

@@ -20,8 +20,8 @@ pub fn warnings(surface: &Surface, grid: &Grid, length: f64) -> Vec<String> {
         .take(MOST)
         .map(|p| {
             format!(
-                "near ({:.3}, {:.3}, {:.3}) the surface is narrower than a member: expect short ones there",
-                p.x, p.y, p.z
+                "near {} the surface is narrower than a member: expect short ones there",
+                surface.origin.told(*p)
             )
         })
         .collect();

@@ -3,7 +3,7 @@
 //! Each part gets a grid of its own, of the same edge length, one after the other; then they stand side by side
 //! on one surface and are measured as one. Symmetries and directions are each part's own.
 
-use super::{Scale, rough, scale_on, single, verdict, whole};
+use super::{Scale, rough, scale, scale_on, single, verdict, whole};
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
 use crate::job::Job;
@@ -88,11 +88,11 @@ pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
 pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
     let parts = model.parts();
     match recipe.part {
-        Parts::Number(n) => super::edge_length(&model.of_faces(numbered(&parts, n)?), recipe),
+        Parts::Number(n) => Ok(scale(&model.of_faces(numbered(&parts, n)?), recipe)?.length),
         Parts::All if parts.len() > MOST_LAID => Err(too_many(&parts)),
         Parts::All if parts.len() > 1 => Ok(Pieces::new(model, &parts, recipe)?.length),
         Parts::One if parts.len() > 1 => Err(Error::Surface(choice(model, &parts))),
-        Parts::One | Parts::All => super::edge_length(model, recipe),
+        Parts::One | Parts::All => Ok(scale(model, recipe)?.length),
     }
 }
 
@@ -309,7 +309,7 @@ fn join(
     let grid = side_by_side(&grids, offsets)?;
     let quality = measure(&grid, surface, length, &recipe.measure);
     let validity = Validity::of(&grid, surface, length, &quality);
-    verdict::check(&validity, recipe, length)?;
+    verdict::check(&validity, recipe, surface.origin, length)?;
     let stages =
         (0..runs[0].stages.len()).map(|s| stage(s, numbers, &runs, surface, offsets, length));
     let stages = stages.collect::<Result<Vec<_>>>()?;
@@ -344,7 +344,7 @@ fn join(
         parts,
         candidates,
         stages,
-        irregular: irregular_nodes(&grid),
+        irregular: irregular_nodes(&grid, surface.origin),
         quality,
         figures: schedule.figures.clone(),
         schedule,

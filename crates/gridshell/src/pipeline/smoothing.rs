@@ -1,6 +1,6 @@
 //! A coarse mesh is smoothed before it is sampled, where the recipe wants it: what comes after sees a fine mesh.
 
-use super::{CARRIER_CHORD, parts};
+use super::{CARRIER_CHORD, local, parts};
 use crate::error::Result;
 use crate::recipe::Recipe;
 use crate::surface::{Model, PolygonMesh, Smooth};
@@ -29,7 +29,7 @@ pub fn smoothed<'a>(model: &'a Model, recipe: &Recipe) -> Result<Cow<'a, Model>>
         Model::Mesh(mesh) if mesh.smoothing.is_some() => return Ok(Cow::Borrowed(model)),
         Model::Mesh(mesh) => mesh,
     };
-    let length = parts::edge_length(model, recipe)?;
+    let length = parts::edge_length(model, &local(recipe, model.origin()))?;
     Ok(Cow::Owned(Model::Mesh(smooth(mesh, length, recipe)?)))
 }
 

@@ -3,7 +3,8 @@
 //! The whole pipeline runs on one part of the surface, of which all others are images: half of it, or the
 //! wedge between two mirror planes or between a plane and its image. The part's grid and its images are joined
 //! along the cuts. Then the whole is relaxed once more, so that lines run smoothly across them, and every node
-//! is put at the mean of what its images say, which makes it symmetric again to rounding.
+//! is put at the mean of what its images say, which makes it symmetric again to rounding; on a mesh that is symmetric
+//! but for its facets, to how far these are off the surface that it stands for.
 
 use super::{Scale, effort, lay, narrow, nodes_for, sampling, verdict, wishes};
 use crate::error::{Error, Result};
@@ -18,7 +19,7 @@ use crate::stages::measure::{irregular_nodes, measure};
 use crate::stages::relax;
 use crate::surface::group::Miss;
 use crate::surface::section::{Part, Wedge};
-use crate::surface::{ChainPoint, Group, Locator, Model, Motion, Surface, Symmetries};
+use crate::surface::{ChainPoint, Group, Locator, Model, Motion, Sampling, Surface, Symmetries};
 use crate::validity::Validity;
 use glam::{DVec2, DVec3};
 
@@ -26,12 +27,22 @@ use glam::{DVec2, DVec3};
 const OFF_SIZE: f64 = 1e-6;
 /// Or by this share of l0.
 const OFF_LENGTH: f64 = 1e-3;
+/// The smooth surface that a mesh stands for may be off its facets by this share of l0, where symmetries are looked for:
+/// no more than a grid may be off its symmetry without it being seen.
+const BOW_LENGTH: f64 = 0.02;
 /// Nodes nearer than this, over l0, are one.
 const SAME: f64 = 1e-3;
 /// Rounds of putting a node on the surface and on its plane.
 const ROUNDS: usize = 3;
 
-/// The group that the recipe asks for; None for none.
+/// A symmetry of a surface.
+pub struct Found {
+    group: Group,
+    /// How far images may be off the surface for its facets, metres.
+    off: f64,
+}
+
+/// The symmetry that the recipe asks for; None for none.
 ///
 /// # Errors
 /// [`Error::Option`] where the surface does not have the symmetry, with where and by how much.
@@ -40,22 +51,27 @@ pub fn group(
     model: &Model,
     recipe: &Recipe,
     length: f64,
-) -> Result<Option<Group>> {
+) -> Result<Option<Found>> {
     if recipe.symmetry == Symmetry::None {
         return Ok(None);
     }
     let tolerance = (OFF_SIZE * model.size()).max(OFF_LENGTH * length);
-    let symmetries = Symmetries::new(surface, tolerance);
-    let found = match recipe.symmetry {
-        Symmetry::None => return Ok(None),
-        Symmetry::Auto => return Ok(symmetries.largest()),
-        Symmetry::X => symmetries.mirror(DVec2::Y),
-        Symmetry::Y => symmetries.mirror(DVec2::X),
-        Symmetry::Xy => symmetries.both_mirrors(),
-        Symmetry::Turns(n) => symmetries.turns(n),
+    let exact = find(&Symmetries::new(surface, tolerance), recipe.symmetry);
+    let found = match (&exact, model) {
+        (Ok(Some(_)), _) if recipe.symmetry != Symmetry::Auto => exact,
+        (_, Model::Mesh(mesh)) => {
+            let corner_angle = recipe.corner_angle_deg.to_radians();
+            let (max_edge, chord_error) = (f64::INFINITY, f64::INFINITY);
+            let facets = mesh.surface(&Sampling { max_edge, chord_error, corner_angle })?;
+            let crease_angle = recipe.feature_angle_deg.to_radians();
+            let most = BOW_LENGTH * length;
+            let near = Symmetries::of_facets(&facets, tolerance, crease_angle, corner_angle, most);
+            larger(exact, find(&near, recipe.symmetry))
+        }
+        _ => exact,
     };
-    found.map(Some).map_err(|Miss { distance, point: p, image }| {
-        let at = |p: DVec3| format!("({:.3}, {:.3}, {:.3})", p.x, p.y, p.z);
+    found.map_err(|Miss { distance, point: p, image }| {
+        let at = |p: DVec3| surface.origin.told(p);
         Error::Option(format!(
             "the surface does not have the symmetry {}: the image {} of its point {} is {distance:.3} m off it; \
              leave the symmetry out, or give auto for the one it has",
@@ -66,14 +82,44 @@ pub fn group(
     })
 }
 
-/// Lay a grid with the symmetry of `group` on `surface`, which was made from `model`.
+/// What is asked for, if the surface has it; of all symmetries the largest, if there is one.
+fn find(symmetries: &Symmetries, wanted: Symmetry) -> std::result::Result<Option<Found>, Miss> {
+    let group = match wanted {
+        Symmetry::None => return Ok(None),
+        Symmetry::Auto => return Ok(symmetries.largest().map(|g| Found::new(g, symmetries))),
+        Symmetry::X => symmetries.mirror(DVec2::Y),
+        Symmetry::Y => symmetries.mirror(DVec2::X),
+        Symmetry::Xy => symmetries.both_mirrors(),
+        Symmetry::Turns(n) => symmetries.turns(n),
+    };
+    group.map(|g| Some(Found::new(g, symmetries)))
+}
+
+/// What was found on the surface itself, unless the one that its facets stand for has more.
+fn larger(
+    exact: std::result::Result<Option<Found>, Miss>,
+    near: std::result::Result<Option<Found>, Miss>,
+) -> std::result::Result<Option<Found>, Miss> {
+    let order = |found: &std::result::Result<Option<Found>, Miss>| {
+        found.as_ref().ok().and_then(Option::as_ref).map_or(0, |f| f.group.order())
+    };
+    if order(&near) > order(&exact) { near } else { exact }
+}
+
+impl Found {
+    fn new(group: Group, on: &Symmetries) -> Found {
+        Found { group, off: on.bow() }
+    }
+}
+
+/// Lay a grid with the symmetry `found` on `surface`, which was made from `model`.
 ///
 /// # Errors
 /// As [`super::generate`].
 pub fn generate(
     model: &Model,
     surface: &Surface,
-    group: &Group,
+    Found { group, off }: &Found,
     recipe: &Recipe,
     scale: &Scale,
     fixed: Vec<String>,
@@ -101,8 +147,10 @@ pub fn generate(
     let lenient = Recipe { keep_invalid: true, ..recipe.clone() };
     let mut run = lay(model, &part.surface, &lenient, &Scale { length, nodes }, Vec::new(), job)?;
 
-    let tolerance = SAME * length;
-    let whole = Whole { surface, locator: Locator::new(surface), group, wedge: &wedge, tolerance };
+    let tolerance = (SAME * length).max(2.0 * off);
+    let locator = Locator::new(surface);
+    let uneven = *off > 0.0;
+    let whole = Whole { surface, locator, group, wedge: &wedge, length, tolerance, uneven };
     let part_nodes = run.grid.xyz.len();
     for stage in &mut run.stages {
         let Some(grid) = &stage.grid else { continue };
@@ -133,13 +181,18 @@ pub fn generate(
         }
     }
     let (grid, quality, validity) = chosen;
-    verdict::check(&validity, recipe, length)?;
+    verdict::check(&validity, recipe, surface.origin, length)?;
     if let Some(last) = run.stages.last_mut() {
         last.quality = Some(quality.clone());
         last.grid = Some(grid.clone());
     }
     let schedule = Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure));
     let mut warnings = fixed;
+    if uneven {
+        warnings.push(format!(
+            "the mesh is symmetric but for its facets, whose smooth surface may be {off:.4} m off them: so is the grid"
+        ));
+    }
     // What is narrow in the part need not be so in the whole.
     warnings.extend(narrow::warnings(surface, &grid, length));
     warnings.extend(validity.warnings());
@@ -152,10 +205,10 @@ pub fn generate(
         symmetry: Some(SymmetryReport {
             mirrors: group.mirrors().iter().map(|m| m.perp().to_array()).collect(),
             rotations: group.turns,
-            centre: group.centre.to_array(),
+            centre: surface.origin.world(group.centre.extend(0.0)).truncate().to_array(),
             part_nodes,
         }),
-        irregular: irregular_nodes(&grid),
+        irregular: irregular_nodes(&grid, surface.origin),
         figures: schedule.figures.clone(),
         stopped: job.stopped(),
         quality,
@@ -181,7 +234,11 @@ struct Whole<'a> {
     locator: Locator<'a>,
     group: &'a Group,
     wedge: &'a Wedge,
+    /// Wanted member length, metres.
+    length: f64,
     tolerance: f64,
+    /// The surface is symmetric but for its facets: nodes are put back on them.
+    uneven: bool,
 }
 
 /// Which nodes are images of one another.
@@ -242,9 +299,9 @@ impl Whole<'_> {
             }));
         }
         let misfit = |message: String| Error::NoGrid {
-            at: all[0].to_array(),
+            at: self.surface.origin.world(all[0]).to_array(),
             message: format!("the part's grid and its images do not fit together: {message}"),
-            edge_length: 0.5 * self.tolerance / SAME,
+            edge_length: 0.5 * self.length,
         };
         let mesh = Mesh::from_triangles(all.len(), &joined).map_err(|e| misfit(e.to_string()))?;
         marked.extend(self.marked_on_cuts(&xyz, &on, &panels));
@@ -255,6 +312,9 @@ impl Whole<'_> {
             }
         }
         self.place(&mut whole)?;
+        if self.uneven {
+            whole.settle_exactly(self.surface);
+        }
         Ok((whole, Orbits { images, on }))
     }
 
@@ -355,7 +415,7 @@ impl Whole<'_> {
             for k in 0..3 {
                 let (a, b) = (p[k] as usize, p[(k + 1) % 3] as usize);
                 let cut = (0..2).any(|i| on[a][i] && on[b][i]);
-                let near = |p: DVec3| self.on_feature(p, 0.02 * self.tolerance / SAME).is_some();
+                let near = |p: DVec3| self.on_feature(p, 0.02 * self.length).is_some();
                 if cut && near(xyz[a]) && near(xyz[b]) && near((xyz[a] + xyz[b]) * 0.5) {
                     marked.push((a as u32, b as u32));
                 }
@@ -415,7 +475,7 @@ impl Whole<'_> {
                     return Some(Place::Fixed(f));
                 }
                 let along = !grid.mesh.along_features(v).is_empty();
-                let feature = along.then(|| self.on_feature(p, self.tolerance / SAME)).flatten();
+                let feature = along.then(|| self.on_feature(p, self.length)).flatten();
                 match feature {
                     Some(at) => Some(Place::Feature(at)),
                     None => self.locator.nearest(p).map(Place::Interior),
@@ -448,6 +508,9 @@ impl Whole<'_> {
         // The places of images are where they are now; they were there before.
         if let Err(e) = self.place(grid) {
             unreachable!("a boundary does not go away: {e}");
+        }
+        if self.uneven {
+            grid.settle_exactly(self.surface);
         }
     }
 

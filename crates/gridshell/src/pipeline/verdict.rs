@@ -8,7 +8,7 @@ use crate::grid::Grid;
 use crate::job::Job;
 use crate::recipe::Recipe;
 use crate::stages::measure::{Quality, measure};
-use crate::surface::Surface;
+use crate::surface::{Origin, Surface};
 use crate::validity::{Validity, metres, told};
 use glam::DVec3;
 
@@ -73,43 +73,45 @@ pub fn soundest(
     best
 }
 
-/// Refuse a grid that is not valid, unless the recipe wants it all the same.
+/// Refuse a grid that is not valid, unless the recipe wants it all the same, whose places are in coordinates of this
+/// origin.
 ///
 /// # Errors
 /// [`Error::Invalid`] with all places and what to do.
-pub fn check(validity: &Validity, recipe: &Recipe, length: f64) -> Result<()> {
+pub fn check(validity: &Validity, recipe: &Recipe, origin: Origin, length: f64) -> Result<()> {
     if validity.is_valid() || recipe.keep_invalid {
         return Ok(());
     }
     Err(Error::Invalid {
         message: validity.summary(),
-        advice: advice(validity, recipe, length),
+        advice: advice(validity, recipe, origin, length),
         places: validity.faults.iter().map(|f| f.at).collect(),
     })
 }
 
 /// What the designer may change.
-fn advice(validity: &Validity, recipe: &Recipe, length: f64) -> String {
+fn advice(validity: &Validity, recipe: &Recipe, origin: Origin, length: f64) -> String {
     let shorter = format!("an edge length of about {} may work", metres(0.5 * length));
     let spots = validity.faults.iter().filter(|f| !f.nodes.is_empty()).map(|f| DVec3::from(f.at));
     let spots: Vec<DVec3> = spots.collect();
-    let cause = cause(&spots, recipe, CAUSE * length);
+    let cause = cause(&spots, recipe, origin, CAUSE * length);
     let cause = cause.map(|what| format!("{what} is near: move it or leave it out, or "));
     let keep = "; --keep-invalid (keep_invalid in a recipe) gives the grid as it is, marked";
     cause.unwrap_or_default() + &shorter + keep
 }
 
 /// The anchor or guide that most of these places are near to, within `reach` metres.
-fn cause(spots: &[DVec3], recipe: &Recipe, reach: f64) -> Option<String> {
+fn cause(spots: &[DVec3], recipe: &Recipe, origin: Origin, reach: f64) -> Option<String> {
+    let world = |p: [f64; 3]| origin.world(p.into());
     let near =
         |distance: &dyn Fn(DVec3) -> f64| spots.iter().filter(|&&p| distance(p) <= reach).count();
     let anchors = recipe.anchors.iter().enumerate().map(|(i, &at)| {
-        let count = near(&|p| p.distance(at.into()));
-        (count, format!("anchor {} at {}", i + 1, told(at)))
+        let count = near(&|p| p.distance(world(at)));
+        (count, format!("anchor {} at {}", i + 1, told(world(at).to_array())))
     });
     let guides = recipe.guides.iter().enumerate().map(|(i, points)| {
         let count =
-            near(&|p| points.iter().map(|&q| p.distance(q.into())).fold(f64::MAX, f64::min));
+            near(&|p| points.iter().map(|&q| p.distance(world(q))).fold(f64::MAX, f64::min));
         (count, format!("guide {}", i + 1))
     });
     let first_of_most = |best: (usize, String), next: (usize, String)| {

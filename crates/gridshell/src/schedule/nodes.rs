@@ -12,7 +12,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// The nodes of a grid.
 #[derive(Clone, Debug, Default)]
 pub struct Nodes {
-    /// Position, metres.
+    /// Position, metres in the coordinates of the surface's file.
     pub xyz: Vec<DVec3>,
     /// Unit normal of the surface, outwards.
     pub normal: Vec<DVec3>,
@@ -42,7 +42,8 @@ impl Nodes {
     pub(super) fn new(grid: &Grid, surface: &Surface, tolerance_deg: f64) -> Nodes {
         let mesh = &grid.mesh;
         let normal: Vec<DVec3> = grid.places.iter().map(|p| p.normal(surface)).collect();
-        let mut nodes = Nodes { xyz: grid.xyz.clone(), ..Nodes::default() };
+        let world = grid.xyz.iter().map(|&p| surface.origin.world(p));
+        let mut nodes = Nodes { xyz: world.collect(), ..Nodes::default() };
         for v in 0..grid.xyz.len() as u32 {
             let boundary = mesh.is_boundary(v);
             let at = grid.xyz[v as usize];

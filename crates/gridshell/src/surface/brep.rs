@@ -1,6 +1,7 @@
 //! The trimmed model as CAD files have it: faces over exact shapes, bounded by shared edges.
 
 use super::curve::Curve;
+use super::origin::Origin;
 use super::sew::Sewing;
 use super::shape::Shape;
 use super::source::Source;
@@ -18,6 +19,8 @@ pub struct Brep {
     pub tolerance: f64,
     /// What sewing did; None before.
     pub sewing: Option<Sewing>,
+    /// Where the coordinates have their origin in those of the file.
+    pub origin: Origin,
     /// Vertex positions.
     pub vertices: Vec<DVec3>,
     /// Edges, each once, however many faces share it.

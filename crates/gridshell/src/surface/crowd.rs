@@ -32,7 +32,8 @@ impl Surface {
                 shared.push(p);
             }
         }
-        let note = shared.first().map(|p| {
+        let note = shared.first().map(|&p| {
+            let p = self.origin.world(p);
             format!(
                 "{} of the anchors are within {near:.3} m of a corner or of another anchor, whose node is theirs too; \
                  the first near ({:.3}, {:.3}, {:.3})",

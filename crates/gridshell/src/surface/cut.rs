@@ -87,7 +87,8 @@ impl<'a> Cutter<'a> {
     /// # Errors
     /// [`Error::Surface`] where it is farther than a member from the surface.
     pub(super) fn put_anchor(&mut self, i: usize, p: DVec3) -> Result<(u32, Option<String>)> {
-        let told = || format!("anchor {} at ({:.3}, {:.3}, {:.3})", i + 1, p.x, p.y, p.z);
+        let origin = self.surface.origin;
+        let told = || format!("anchor {} at {}", i + 1, origin.told(p));
         let vertex = self.put(p);
         let off = self.xyz(vertex).distance(p);
         if off.is_nan() || off > self.length {

@@ -5,7 +5,7 @@
 //! more than a quarter of a member off its course, the farthest first, as long as it is half a member from those that
 //! stay already. Nowhere do two corners stay that count as one node. What is left out is told with how far it stands off.
 
-use super::{Chain, NEAREST, Surface};
+use super::{Chain, NEAREST, Origin, Surface};
 use crate::math::trig;
 use glam::DVec3;
 
@@ -182,7 +182,7 @@ impl Surface {
             chain.begin_at_corner();
             chain.measure(&self.carrier);
         }
-        let (off, p) = worst;
+        let (off, p) = (worst.0, self.origin.world(worst.1));
         (left_out > 0).then(|| {
             format!(
                 "corners of the border are nearer to one another than members allow: {left_out} are no nodes, and the \
@@ -226,6 +226,7 @@ pub(super) fn thin_guide(
     points: &[DVec3],
     corner_angle: f64,
     length: f64,
+    origin: Origin,
 ) -> Option<(Vec<DVec3>, String)> {
     let mut s = 0.0;
     let mut corners = Vec::new();
@@ -248,7 +249,7 @@ pub(super) fn thin_guide(
         stays[from + 1..to].fill(false);
     }
     let left: Vec<DVec3> = points.iter().zip(&stays).filter(|p| *p.1).map(|p| *p.0).collect();
-    let (count, p) = (points.len() - left.len(), thinned.worst);
+    let (count, p) = (points.len() - left.len(), origin.world(thinned.worst));
     let note = format!(
         "guide {} turns more often than members can: {count} of its points are left out, and members leave it by up to \
          {:.3} m, near ({:.3}, {:.3}, {:.3})",

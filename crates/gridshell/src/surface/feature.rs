@@ -57,6 +57,7 @@ impl Surface {
         let mut dense = self.thin_corners(wanted.edge_length);
         let mut anchors = Vec::new();
         if !wanted.guides.is_empty() || !wanted.anchors.is_empty() {
+            let origin = self.origin;
             let mut cutter = Cutter::new(self, wanted.edge_length);
             for (i, guide) in wanted.guides.iter().enumerate() {
                 let (points, noise) = thinned(guide, wanted.edge_length);
@@ -68,7 +69,8 @@ impl Surface {
                         i + 1
                     ));
                 }
-                let thinned = thin_guide(i, &points, wanted.corner_angle, wanted.edge_length);
+                let thinned =
+                    thin_guide(i, &points, wanted.corner_angle, wanted.edge_length, origin);
                 let guide: &[DVec3] = match &thinned {
                     Some((guide, note)) => {
                         notes.push(note.clone());
@@ -180,11 +182,9 @@ impl Surface {
         }
         let first = dropped.first()?;
         Some(format!(
-            "{} short creases are not followed (less than half a member; the first near ({:.3}, {:.3}, {:.3}))",
+            "{} short creases are not followed (less than half a member; the first near {})",
             dropped.len(),
-            first.x,
-            first.y,
-            first.z
+            self.origin.told(*first)
         ))
     }
 
@@ -291,13 +291,10 @@ impl Surface {
         let mut notes = Vec::new();
         let point = |chain: &Chain, s: f64| chain.xyz(&self.carrier, s);
         for chain in self.features.iter().filter(|c| c.length() < SHORT * length) {
-            let p = point(chain, 0.0);
             notes.push(format!(
-                "a feature is only {:.3} m long between two fixed nodes near ({:.3}, {:.3}, {:.3})",
+                "a feature is only {:.3} m long between two fixed nodes near {}",
                 chain.length(),
-                p.x,
-                p.y,
-                p.z
+                self.origin.told(point(chain, 0.0))
             ));
         }
         let samples = |chain: &Chain| -> Vec<DVec3> {
@@ -324,8 +321,8 @@ impl Surface {
                     continue;
                 };
                 notes.push(format!(
-                    "a feature runs closer than half a member to {what} near ({:.3}, {:.3}, {:.3})",
-                    p.x, p.y, p.z
+                    "a feature runs closer than half a member to {what} near {}",
+                    self.origin.told(*p)
                 ));
                 break;
             }
@@ -333,8 +330,8 @@ impl Surface {
         for (i, p) in fixed.iter().enumerate() {
             if at_fixed.near(*p, NEAR * length, |j| j > i) {
                 notes.push(format!(
-                    "fixed nodes are closer than half a member near ({:.3}, {:.3}, {:.3})",
-                    p.x, p.y, p.z
+                    "fixed nodes are closer than half a member near {}",
+                    self.origin.told(*p)
                 ));
             }
         }

@@ -1,9 +1,11 @@
 //! The symmetries of a surface: turns about a vertical axis and mirrorings at vertical planes through it.
 //!
 //! A symmetry is believed when the images of the carrier's vertices lie on the surface and those of its loops'
-//! on the loops. Where the axis or plane lies is not guessed from the carrier, which is not symmetric itself,
+//! on the loops. Of a mesh, whose facets are seldom symmetric, they may also lie where the smooth surface that it stands
+//! for may be ([`bow`](super::bow)). Where the axis or plane lies is not guessed from the carrier, which is not symmetric itself,
 //! but fitted to the exact surface.
 
+use super::bow::Bows;
 use super::motion::unit;
 use super::{Locator, Motion, Surface};
 use crate::math::trig;
@@ -79,6 +81,8 @@ pub struct Symmetries<'a> {
     locator: Locator<'a>,
     /// Farther off than this, metres, an image is not on the surface.
     tolerance: f64,
+    /// Or by so much more.
+    bows: Bows,
     centroid: DVec2,
     /// Direction in plan in which the surface is longest.
     longest: DVec2,
@@ -104,7 +108,26 @@ impl<'a> Symmetries<'a> {
         }
         let angle = 0.5 * trig::atan2(2.0 * xy, xx - yy);
         let longest = DVec2::new(trig::cos(angle), trig::sin(angle));
-        Symmetries { surface, locator: Locator::new(surface), tolerance, centroid, longest }
+        let (locator, bows) = (Locator::new(surface), Bows::default());
+        Symmetries { surface, locator, tolerance, bows, centroid, longest }
+    }
+
+    /// For a mesh as it is in its file: images may also be off by what the smooth surface is from its facets, where
+    /// these turn by less than `crease_angle`, and by less than `corner_angle` along the boundary; by `most` metres.
+    pub fn of_facets(
+        facets: &'a Surface,
+        tolerance: f64,
+        crease_angle: f64,
+        corner_angle: f64,
+        most: f64,
+    ) -> Symmetries<'a> {
+        let bows = Bows::of(facets, crease_angle, corner_angle, most);
+        Symmetries { bows, ..Symmetries::new(facets, tolerance) }
+    }
+
+    /// How far the smooth surface may be off facets, metres; 0 where images are to lie on the surface itself.
+    pub fn bow(&self) -> f64 {
+        self.bows.largest()
     }
 
     /// The mirroring at the vertical plane along the unit vector `along`.
@@ -211,26 +234,28 @@ impl<'a> Symmetries<'a> {
         // Most that are none are seen to be none at once.
         for count in [100, CHECK_POINTS] {
             let miss = self.worst(motion, count);
-            if miss.is_some_and(|miss| miss.distance > self.tolerance) {
-                return Err(self.worst(motion, CHECK_POINTS).or(miss).expect("just missed"));
+            let Some((excess, miss)) = miss else { continue };
+            if excess > self.tolerance {
+                return Err(self.worst(motion, CHECK_POINTS).map_or(miss, |worst| worst.1));
             }
         }
         Ok(())
     }
 
-    /// The largest distance of an image from the surface, over about `count` points.
-    fn worst(&self, motion: &Motion, count: usize) -> Option<Miss> {
+    /// The image that lies farthest from the surface, over about `count` points, and by how much more than facets may.
+    fn worst(&self, motion: &Motion, count: usize) -> Option<(f64, Miss)> {
         let mut samples = self.inside(count);
         samples.extend(self.on_loops(count));
-        let misses: Vec<Miss> = samples
+        let misses: Vec<(f64, Miss)> = samples
             .par_iter()
             .map(|sample| {
                 let image = motion.image(sample.point);
-                let distance = self.foot(sample, image).0.distance(image);
-                Miss { distance, point: sample.point, image }
+                let (foot, _, bow) = self.foot(sample, image);
+                let distance = foot.distance(image);
+                (distance - bow, Miss { distance, point: sample.point, image })
             })
             .collect();
-        misses.into_iter().rev().max_by(|a, b| a.distance.total_cmp(&b.distance))
+        misses.into_iter().rev().max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     fn inside(&self, count: usize) -> Vec<Sample> {
@@ -246,16 +271,19 @@ impl<'a> Symmetries<'a> {
         all.iter().step_by(step).map(|v| Sample { point: point(v), on_loop: true }).collect()
     }
 
-    /// The point of the surface, or of its loops, nearest to the image of a sample, and its normal or tangent.
-    fn foot(&self, sample: &Sample, image: DVec3) -> (DVec3, DVec3) {
+    /// The point of the surface, or of its loops, nearest to the image of a sample, its normal or tangent, and how far the
+    /// smooth surface may be from there.
+    fn foot(&self, sample: &Sample, image: DVec3) -> (DVec3, DVec3, f64) {
         let surface = self.surface;
         if !sample.on_loop {
             let place = self.locator.nearest(image).expect("a surface has triangles");
-            return (surface.foot(&place, image), surface.carrier.normal(&place));
+            let bow = self.bows.of_triangle(place.triangle);
+            return (surface.foot(&place, image), surface.carrier.normal(&place), bow);
         }
         let place = self.locator.nearest_on_loops(image).expect("a sample of a loop");
         let chain = &surface.loops[place.chain as usize];
-        (chain.foot(surface, place.s, image), chain.tangent(&surface.carrier, place.s))
+        let bow = self.bows.of_segment(place.chain, chain.locate(place.s).0);
+        (chain.foot(surface, place.s, image), chain.tangent(&surface.carrier, place.s), bow)
     }
 
     /// The parameters of the motion that bring images nearest to the surface: Gauss-Newton.
@@ -288,7 +316,7 @@ impl<'a> Symmetries<'a> {
         let (mut a, mut b) = ([[0.0; 2]; 2], [0.0; 2]);
         for sample in samples {
             let image = motion.image(sample.point);
-            let (foot, axis) = self.foot(sample, image);
+            let (foot, axis, _) = self.foot(sample, image);
             let along = |v: DVec3| axis * v.dot(axis);
             // Off the surface along its normal, off a loop square to its tangent.
             let counts = |v: DVec3| if sample.on_loop { v - along(v) } else { along(v) };

@@ -45,7 +45,8 @@ impl Cutter<'_> {
     /// [`Error::Surface`] with coordinates where it leaves the surface by more than a member or is shorter than
     /// one.
     pub(super) fn cut_guide(&mut self, i: usize, points: &[DVec3]) -> Result<Vec<String>> {
-        let at = |p: DVec3| format!("({:.3}, {:.3}, {:.3})", p.x, p.y, p.z);
+        let origin = self.surface.origin;
+        let at = |p: DVec3| origin.told(p);
         let fault = |p: DVec3, what: String| {
             Err(Error::Surface(format!("guide {} {what} near {}", i + 1, at(p))))
         };
@@ -148,8 +149,8 @@ impl Cutter<'_> {
             here = next;
         }
         Err(Error::Surface(format!(
-            "a guide does not come to an end near ({:.3}, {:.3}, {:.3})",
-            q.x, q.y, q.z
+            "a guide does not come to an end near {}",
+            self.surface.origin.told(q)
         )))
     }
 

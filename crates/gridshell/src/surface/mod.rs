@@ -7,6 +7,7 @@
 mod area;
 pub mod bends;
 mod beyond;
+mod bow;
 pub mod brep;
 pub mod builtin;
 mod cap;
@@ -20,6 +21,7 @@ mod dense;
 pub mod direction;
 pub(crate) mod ear;
 mod extend;
+mod extent;
 pub mod facets;
 pub mod feature;
 mod fill;
@@ -34,12 +36,14 @@ pub mod nurbs;
 pub mod offset;
 mod order;
 mod orient;
+mod origin;
 pub mod parts;
 mod plan;
 mod poles;
 mod polygon;
 pub mod project;
 mod refine;
+mod replace;
 pub mod ruler;
 mod sample;
 mod seam;
@@ -68,6 +72,7 @@ pub use locate::Locator;
 pub use model::{Model, PolygonMesh, Sampling};
 pub use motion::Motion;
 pub use offset::OffsetSurface;
+pub use origin::Origin;
 pub use ruler::Ruler;
 pub use sew::{Sewing, sew};
 pub use shape::Shape;
@@ -109,6 +114,8 @@ pub struct Surface {
     pub direction: Vec<DVec3>,
     /// Area in square metres, integrated over the exact patches.
     pub area: f64,
+    /// Where its coordinates have their origin in those of its file.
+    pub origin: Origin,
     /// Carrier edges on model edges or features.
     tracks: Tracks,
 }
@@ -127,6 +134,7 @@ impl Surface {
             scale: Vec::new(),
             direction: Vec::new(),
             area,
+            origin: Origin::default(),
             tracks: Tracks::new(),
         }
     }

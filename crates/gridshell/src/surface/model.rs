@@ -1,6 +1,6 @@
 //! What a file or a built-in name gives, before it is sampled for an edge length.
 
-use super::{Brep, Smoothing, Source, Surface, tessellate};
+use super::{Brep, Origin, Smoothing, Source, Surface, tessellate};
 use crate::error::Result;
 use glam::DVec3;
 
@@ -18,6 +18,8 @@ pub enum Model {
 pub struct PolygonMesh {
     /// File stem.
     pub name: String,
+    /// Where the coordinates have their origin in those of the file.
+    pub origin: Origin,
     /// Vertex positions.
     pub points: Vec<DVec3>,
     /// Faces of three or more vertices, counter-clockwise seen from outside.

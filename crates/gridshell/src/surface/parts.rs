@@ -89,6 +89,7 @@ fn brep_of(brep: &Brep, faces: &[u32]) -> Brep {
         notes: brep.notes.clone(),
         tolerance: brep.tolerance,
         sewing: brep.sewing,
+        origin: brep.origin,
     }
 }
 
@@ -105,7 +106,15 @@ impl PolygonMesh {
     pub(super) fn without_faces(&self) -> PolygonMesh {
         let (points, faces) = (Vec::new(), Vec::new());
         let (name, source, notes) = (self.name.clone(), self.source.clone(), self.notes.clone());
-        PolygonMesh { name, points, faces, source, notes, smoothing: self.smoothing }
+        PolygonMesh {
+            name,
+            origin: self.origin,
+            points,
+            faces,
+            source,
+            notes,
+            smoothing: self.smoothing,
+        }
     }
 }
 
@@ -183,6 +192,7 @@ impl Surface {
     /// Without a surface.
     pub fn side_by_side(parts: Vec<Surface>) -> (Surface, Vec<Offset>) {
         let name = parts.first().expect("a surface has a part").name.clone();
+        let origin = parts[0].origin;
         let mut at = Offset::default();
         let mut offsets = Vec::with_capacity(parts.len());
         let (mut points, mut triangles) = (Vec::new(), Vec::new());
@@ -191,6 +201,7 @@ impl Surface {
         let scaled = parts.iter().any(|s| !s.scale.is_empty());
         let directed = parts.iter().any(|s| !s.direction.is_empty());
         let mut all = Surface::bare(name, Carrier::default(), Vec::new(), 0.0);
+        all.origin = origin;
         for part in parts {
             offsets.push(at);
             let (n, t) = (part.carrier.points.len(), part.carrier.triangles.len());

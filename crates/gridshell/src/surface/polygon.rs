@@ -34,7 +34,8 @@ impl PolygonMesh {
         let patch = vec![0; triangles.len()];
         let carrier = Carrier::new(points, triangles, patch, Vec::new());
         let loops = boundary_loops(&carrier, sampling.corner_angle, |_, _| None);
-        Ok(Surface::bare(self.name.clone(), carrier, loops, area))
+        let surface = Surface::bare(self.name.clone(), carrier, loops, area);
+        Ok(Surface { origin: self.origin, ..surface })
     }
 
     /// All faces in triangles. A face whose diagonal would double an edge of the mesh is split from its

@@ -37,7 +37,8 @@ pub(super) fn complete(brep: &Brep, sampling: &Sampling) -> Result<Brep> {
     }
     let (points, polylines) = sample_edges(&brep, sampling)?;
     let curves: Vec<Curve> = brep.edges.iter().map(|e| e.curve.clone()).collect();
-    let edges = Edges { curves: &curves, polylines: &polylines, points: &points };
+    let origin = brep.origin;
+    let edges = Edges { curves: &curves, polylines: &polylines, points: &points, origin };
     for i in closed {
         close(&mut brep, i, &edges, sampling)?;
     }

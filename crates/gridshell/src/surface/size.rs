@@ -1,6 +1,6 @@
 //! The size of a model before it is sampled: the yardstick for tolerances and first samplings.
 
-use super::{Brep, Model};
+use super::{Brep, Model, PolygonMesh};
 use glam::DVec3;
 
 /// Points looked at on each edge.
@@ -12,8 +12,15 @@ impl Model {
     pub fn size(&self) -> f64 {
         match self {
             Model::Brep(brep) => of_brep(brep),
-            Model::Mesh(mesh) => diagonal(mesh.points.iter().copied()),
+            Model::Mesh(mesh) => mesh.size(),
         }
+    }
+}
+
+impl PolygonMesh {
+    /// Diagonal of the box of its vertices, metres.
+    pub fn size(&self) -> f64 {
+        diagonal(self.points.iter().copied())
     }
 }
 
@@ -33,9 +40,18 @@ fn brep_points(brep: &Brep) -> impl Iterator<Item = DVec3> + '_ {
     brep.vertices.iter().copied().chain(edges).chain(whole.copied())
 }
 
-fn diagonal(points: impl Iterator<Item = DVec3>) -> f64 {
+/// Least and largest coordinates of the same points; infinite the wrong way round where there are none.
+pub(super) fn bounds(brep: &Brep) -> (DVec3, DVec3) {
+    bounds_of(brep_points(brep))
+}
+
+fn bounds_of(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (min, max) = points.fold(start, |(min, max), p| (min.min(p), max.max(p)));
+    points.fold(start, |(min, max), p| (min.min(p), max.max(p)))
+}
+
+fn diagonal(points: impl Iterator<Item = DVec3>) -> f64 {
+    let (min, max) = bounds_of(points);
     if min.x <= max.x { (max - min).length() } else { 0.0 }
 }
 

@@ -6,6 +6,7 @@
 use super::brep::{Brep, BrepFace};
 use super::model::Sampling;
 use super::orient::{self, Wing};
+use super::origin::Origin;
 use super::refine::Web;
 use super::shape::Shape;
 use super::stretch::{self, Stretch};
@@ -53,7 +54,8 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
     let brep = &seam::complete(brep, sampling)?;
     let (mut points, polylines) = sample_edges(brep, sampling)?;
     let curves: Vec<_> = brep.edges.iter().map(|e| e.curve.clone()).collect();
-    let edges = Edges { curves: &curves, polylines: &polylines, points: &points };
+    let origin = brep.origin;
+    let edges = Edges { curves: &curves, polylines: &polylines, points: &points, origin };
     let pieces: Vec<Piece> = brep
         .faces
         .par_iter()
@@ -116,6 +118,7 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
         scale: Vec::new(),
         direction: Vec::new(),
         area: pieces.iter().map(|p| p.area).sum(),
+        origin: brep.origin,
         tracks,
     })
 }
@@ -182,7 +185,7 @@ fn piece(
     let Trim { loops, sliver } = tracer.trim(face)?;
     let all = || loops.iter().flatten().map(|n| n.uv);
     let (lo, hi) = (all().fold(DVec2::MAX, DVec2::min), all().fold(DVec2::MIN, DVec2::max));
-    tame(shape, [lo, hi], edges.points)?;
+    tame(shape, [lo, hi], edges)?;
     let stretch = Stretch::new(shape, tracer.poles(), lo, hi, sampling.max_edge);
     let rough = polygon_area(&loops, stretch.scale()) / (sampling.max_edge * sampling.max_edge);
     if rough > MOST_TRIANGLES {
@@ -206,7 +209,7 @@ fn piece(
     nodes.extend(inside.ok_or(
         "it is too crumpled for triangles of this length; repair it in the program that made it",
     )?);
-    let mut web = weave_web(shape, nodes, &rims, &stretch)?;
+    let mut web = weave_web(shape, nodes, &rims, &stretch, edges.origin)?;
     web.refine(sampling, most);
     let area: f64 = web
         .triangles
@@ -217,10 +220,10 @@ fn piece(
 }
 
 /// Refuse a patch that runs far away from all edges, given by their points, within this box of parameters.
-fn tame(shape: &Shape, [lo, hi]: [DVec2; 2], edges: &[DVec3]) -> std::result::Result<(), String> {
+fn tame(shape: &Shape, [lo, hi]: [DVec2; 2], edges: &Edges) -> std::result::Result<(), String> {
     let Some(spline) = shape.spline() else { return Ok(()) };
     let corners = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = edges.iter().fold(corners, |(l, h), &p| (l.min(p), h.max(p)));
+    let (low, high) = edges.points.iter().fold(corners, |(l, h), &p| (l.min(p), h.max(p)));
     let size = low.distance(high);
     let off = |p: DVec3| p.distance(p.clamp(low, high));
     let farthest = |points: &mut dyn Iterator<Item = DVec3>| {
@@ -238,13 +241,12 @@ fn tame(shape: &Shape, [lo, hi]: [DVec2; 2], edges: &[DVec3]) -> std::result::Re
     if farthest(&mut places).is_none() {
         return Ok(());
     }
+    let away = off(control) / size;
+    let control = edges.origin.world(control);
     Err(format!(
         "it runs far away from its boundary: its control point at ({:.3}, {:.3}, {:.3}) is {:.0} times as far off as \
          the model's edges are apart, so a number is most likely wrong; repair it in the program that made the file",
-        control.x,
-        control.y,
-        control.z,
-        off(control) / size
+        control.x, control.y, control.z, away
     ))
 }
 
@@ -267,10 +269,11 @@ fn weave_web<'a>(
     mut nodes: Vec<Node>,
     rims: &[[u32; 2]],
     stretch: &Stretch,
+    origin: Origin,
 ) -> std::result::Result<Web<'a>, String> {
     for _ in 0..MOST_PINCHES {
         let triangles = weave::triangles(&nodes, rims, stretch).map_err(|i| {
-            let p = nodes[i].xyz;
+            let p = origin.world(nodes[i].xyz);
             format!("its boundary crosses itself near ({:.4}, {:.4}, {:.4})", p.x, p.y, p.z)
         })?;
         let web = Web::new(shape, nodes, &triangles, rims);

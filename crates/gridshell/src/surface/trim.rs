@@ -9,6 +9,7 @@
 use super::brep::{BrepFace, Coedge};
 use super::curve::Curve;
 use super::model::Sampling;
+use super::origin::Origin;
 use super::project::Seeds;
 use super::shape::{Pole, Shape};
 use glam::{DVec2, DVec3};
@@ -56,6 +57,7 @@ pub(super) struct Edges<'a> {
     pub curves: &'a [Curve],
     pub polylines: &'a [Polyline],
     pub points: &'a [DVec3],
+    pub origin: Origin,
 }
 
 /// One coedge in the patch's parameters, in the loop's direction.
@@ -246,7 +248,7 @@ impl<'a> Tracer<'a> {
             if gap <= self.sampling.chord_error {
                 return Ok(());
             }
-            let p = end.xyz;
+            let p = self.edges.origin.world(end.xyz);
             return Err(format!(
                 "its loop has a gap of {gap:.4} m at ({:.4}, {:.4}, {:.4})",
                 p.x, p.y, p.z
@@ -340,11 +342,12 @@ impl<'a> Tracer<'a> {
             }
         }
         if foot.distance(xyz) > limit {
+            let p = self.edges.origin.world(xyz);
             return Err(format!(
                 "its edge at ({:.4}, {:.4}, {:.4}) lies {:.4} m off its surface",
-                xyz.x,
-                xyz.y,
-                xyz.z,
+                p.x,
+                p.y,
+                p.z,
                 foot.distance(xyz)
             ));
         }

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod builtin;
+mod far;
 mod fixed;
 mod formats;
 mod hexagon;

@@ -7,6 +7,7 @@ use gridshell::run::Run;
 use gridshell::surface::{Group, Model, Motion, PolygonMesh};
 use gridshell::{DVec2, DVec3, pipeline};
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
 
 /// Images of nodes are this near to nodes, metres over the size.
 const EXACT: f64 = 1e-9;
@@ -22,6 +23,11 @@ fn quick(symmetry: Symmetry, edge_length: f64) -> Recipe {
 
 /// A run that keeps all promises and is the same under `motions`.
 fn symmetric(model: &Model, recipe: &Recipe, motions: &[Motion]) -> Run {
+    symmetric_within(model, recipe, motions, EXACT * model.size())
+}
+
+/// The same where images of nodes are this near to nodes, metres.
+fn symmetric_within(model: &Model, recipe: &Recipe, motions: &[Motion], close: f64) -> Run {
     let run = pipeline::generate(model, recipe, &Job::default()).unwrap();
     check(model, &run);
     for stage in &run.stages {
@@ -29,7 +35,6 @@ fn symmetric(model: &Model, recipe: &Recipe, motions: &[Motion]) -> Run {
         let edges: BTreeSet<(u32, u32)> =
             grid.mesh.edges().map(|(a, b)| (a.min(b), a.max(b))).collect();
         for motion in motions {
-            let close = EXACT * model.size();
             let images: Vec<u32> =
                 grid.xyz.iter().map(|&p| nearest(&grid.xyz, motion.image(p), close)).collect();
             let all: BTreeMap<u32, usize> =
@@ -185,4 +190,88 @@ fn a_symmetric_grid_does_not_depend_on_threads() {
 fn a_group_has_as_many_motions_as_its_order() {
     let group = Group { centre: DVec2::ZERO, turns: 3, mirror: Some(DVec2::X) };
     assert_eq!((group.motions().len(), group.order(), group.mirrors().len()), (6, 6, 3));
+}
+
+/// Rings and places along each side of [`uneven`].
+const RINGS: usize = 12;
+const PIECES: usize = 9;
+
+/// A paraboloid over a polygon about the origin, its vertices exactly on it; what is symmetric is the surface, not its
+/// triangles: rings, places along the sides and diagonals are uneven.
+fn uneven(corners: &[[f64; 2]], seed: u64) -> Model {
+    let mut state = seed;
+    let mut uneven = || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / f64::from(1_u32 << 31) - 0.5
+    };
+    let around = corners.len() * PIECES;
+    let lifted = |p: DVec2| p.extend(2.0 - 0.02 * p.length_squared());
+    let mut points = vec![lifted(DVec2::ZERO)];
+    for ring in 1..=RINGS {
+        let share = if ring == RINGS { 1.0 } else { (ring as f64 + 0.5 * uneven()) / RINGS as f64 };
+        for k in 0..around {
+            let [a, b] =
+                [k / PIECES, k / PIECES + 1].map(|c| DVec2::from(corners[c % corners.len()]));
+            let along = if k % PIECES == 0 { 0.0 } else { (k % PIECES) as f64 + 0.7 * uneven() };
+            points.push(lifted(a.lerp(b, along / PIECES as f64) * share));
+        }
+    }
+    let at = |ring: usize, k: usize| (1 + (ring - 1) * around + k % around) as u32;
+    let mut faces: Vec<Vec<u32>> = (0..around).map(|k| vec![0, at(1, k), at(1, k + 1)]).collect();
+    for ring in 1..RINGS {
+        for k in 0..around {
+            let [a, b, c, d] = [at(ring, k), at(ring + 1, k), at(ring + 1, k + 1), at(ring, k + 1)];
+            let halves =
+                if uneven() > 0.0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+            faces.extend(halves.map(|t| t.to_vec()));
+        }
+    }
+    Model::Mesh(PolygonMesh { name: "uneven".into(), points, faces, ..PolygonMesh::default() })
+}
+
+/// A star with so many points.
+fn star(points: u32) -> Vec<[f64; 2]> {
+    let corner = |k: u32| {
+        let (angle, r) =
+            (PI * f64::from(k) / f64::from(points), if k % 2 == 0 { 10.0 } else { 6.0 });
+        [-r * angle.sin(), r * angle.cos()]
+    };
+    (0..2 * points).map(corner).collect()
+}
+
+/// Symmetry is the surface's: how it is triangulated does not count, within what facets are off it.
+#[test]
+fn a_mesh_is_as_symmetric_as_the_surface_that_it_stands_for() {
+    for (seed, turns) in [(1, 3), (2, 5), (3, 7)] {
+        for symmetry in [Symmetry::Auto, Symmetry::Turns(turns)] {
+            let model = uneven(&star(turns), seed);
+            let run = symmetric_within(&model, &quick(symmetry, 1.1), &[turn(turns)], 0.03);
+            assert_eq!(run.symmetry.as_ref().unwrap().rotations, turns);
+            assert!(
+                run.warnings.iter().any(|w| w.contains("but for its facets")),
+                "{:?}",
+                run.warnings
+            );
+        }
+    }
+    let kite = [[0.0, 9.0], [-7.0, 2.0], [-3.0, -8.0], [3.0, -8.0], [7.0, 2.0]];
+    for symmetry in [Symmetry::Auto, Symmetry::X] {
+        let run = symmetric_within(&uneven(&kite, 4), &quick(symmetry, 1.1), &[mirror_x()], 0.03);
+        assert_eq!(run.symmetry.unwrap().mirrors.len(), 1);
+    }
+}
+
+/// What is off by more than facets can be is no symmetry: a star with one point too short.
+#[test]
+fn a_mesh_that_is_not_symmetric_is_told_so() {
+    for turns in [3, 5, 7] {
+        let mut corners = star(turns);
+        corners[2] = corners[2].map(|x| 0.99 * x);
+        let model = uneven(&corners, 5);
+        let refused =
+            pipeline::generate(&model, &quick(Symmetry::Turns(turns), 1.1), &Job::default());
+        let told = refused.map(|_| ()).unwrap_err().to_string();
+        assert!(told.contains("m off it"), "{told}");
+    }
 }

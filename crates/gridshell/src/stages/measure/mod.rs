@@ -19,7 +19,7 @@ pub use quality::{Border, Degrees, EdgeLength, Irregular, IrregularNode, Lengths
 use crate::degree::{REGULAR, adjusted_degree, boundary_angle, virtual_degree, weight};
 use crate::grid::{Grid, Place};
 use crate::recipe;
-use crate::surface::Surface;
+use crate::surface::{Origin, Surface};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -94,13 +94,13 @@ pub fn compare(
     }
 }
 
-/// The irregular nodes that remain, for the designer, in ascending order.
-pub fn irregular_nodes(grid: &Grid) -> Vec<IrregularNode> {
+/// The irregular nodes that remain, for the designer, in ascending order; `origin` is that of the grid's coordinates.
+pub fn irregular_nodes(grid: &Grid, origin: Origin) -> Vec<IrregularNode> {
     let mesh = &grid.mesh;
     mesh.vertices()
         .map(|v| IrregularNode {
             node: v,
-            xyz: grid.xyz[v as usize].to_array(),
+            xyz: origin.world(grid.xyz[v as usize]).to_array(),
             degree: mesh.degree(v),
             adjusted_degree: adjusted_degree(mesh, &grid.xyz, v),
             boundary: mesh.is_boundary(v),

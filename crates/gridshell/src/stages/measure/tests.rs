@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::math::trig;
-use crate::surface::Surface;
+use crate::surface::{Origin, Surface};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -79,7 +79,7 @@ fn a_single_node_of_degree_five() {
     // q = 4 sqrt(3) (sin 72) / 2 / (2 + side^2)
     close(quality.shape.min, 2.0 * 3f64.sqrt() * trig::sin(0.4 * PI) / (2.0 + side * side));
     close(quality.min_angle_deg, 54.0);
-    let irregular = irregular_nodes(&wheel.0);
+    let irregular = irregular_nodes(&wheel.0, Origin::default());
     assert_eq!(irregular.len(), 1);
     assert_eq!((irregular[0].node, irregular[0].degree, irregular[0].adjusted_degree), (0, 5, 5));
     assert!(!irregular[0].boundary);

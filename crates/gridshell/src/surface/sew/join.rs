@@ -4,7 +4,7 @@ use super::pair::Pairs;
 use super::split::{Pieces, Union};
 use crate::math::digits::three;
 use crate::surface::brep::{BrepEdge, Coedge};
-use crate::surface::{Brep, Loss};
+use crate::surface::{Brep, Loss, Origin};
 use glam::DVec3;
 
 /// An edge whose ends became one place and that is no longer than so many tolerances is no edge any more.
@@ -211,7 +211,7 @@ impl Lost {
     }
 
     /// In words.
-    pub fn told(&self, pairs: &Pairs, tolerance: f64) -> Vec<String> {
+    pub fn told(&self, pairs: &Pairs, tolerance: f64, origin: Origin) -> Vec<String> {
         let mut told = Vec::new();
         if self.edges > 0 {
             told.push(format!(
@@ -233,7 +233,8 @@ impl Lost {
             let numbers: Vec<u32> = pairs.twins.iter().map(|f| f + 1).collect();
             told.push(format!("face(s) {} lie on others and are left out", list(&numbers)));
         }
-        if let Some(at) = pairs.crowded.first() {
+        if let Some(&at) = pairs.crowded.first() {
+            let at = origin.world(at);
             told.push(format!(
                 "{} edge(s) lie where two others are joined already, the first near ({:.4}, {:.4}, {:.4}): more than \
                  two faces meet there, and only the two that go on most smoothly are joined",

@@ -78,7 +78,7 @@ pub fn sew(brep: &mut Brep, tolerance: Option<f64>) -> Result<()> {
         sewing.largest_gap = below_rounding(gap, size);
         let lost = join::join(&mut bounded, &pieces, &pairs, tolerance);
         told.push(joined(&sewing, brep));
-        told.extend(lost.told(&pairs, tolerance));
+        told.extend(lost.told(&pairs, tolerance, brep.origin));
         bounded.source.losses.extend(lost.loss(tolerance));
     }
     facing::look(&bounded, (REACH * usual).max(2.0 * tolerance), &mut sewing);
