@@ -1,5 +1,6 @@
 //! Readers and writers, one file per format, and surfaces by name.
 
+mod bezier;
 mod choice;
 mod compas;
 mod csv;
@@ -32,6 +33,7 @@ pub mod step;
 mod stitch;
 mod stl;
 mod text;
+mod thin;
 mod turn;
 mod unit;
 mod values;
@@ -193,7 +195,8 @@ pub fn read_mesh_with(path: &Path, opening: &Opening) -> Result<PolygonMesh> {
         refuse_unit(path, opening)?;
     }
     let mut mesh = weld::weld(path, read(path)?, opening)?;
-    mesh.source = Source::of_format(&extension(path).to_uppercase());
+    let losses = std::mem::take(&mut mesh.source.losses);
+    mesh.source = Source { losses, ..Source::of_format(&extension(path).to_uppercase()) };
     Ok(mesh)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use glam::DVec3;
+use std::iter::Enumerate;
 use std::path::Path;
 use std::str::FromStr;
 
@@ -16,12 +17,29 @@ pub(super) struct Line<'a> {
 }
 
 /// The lines of a text that are not blank once their comment is cut off at `#`.
-pub(super) fn lines<'a>(path: &'a Path, text: &'a str) -> impl Iterator<Item = Line<'a>> {
-    let cut = |line: &'a str| line.split('#').next().unwrap_or_default().trim();
-    text.lines()
-        .enumerate()
-        .map(move |(k, line)| Line { path, number: k + 1, text: cut(line) })
-        .filter(|line| !line.text.is_empty())
+pub(super) fn lines<'a>(path: &'a Path, text: &'a str) -> Lines<'a> {
+    Lines { path, lines: text.lines().enumerate() }
+}
+
+/// What [`lines`] gives.
+#[derive(Clone)]
+pub(super) struct Lines<'a> {
+    path: &'a Path,
+    lines: Enumerate<std::str::Lines<'a>>,
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = Line<'a>;
+
+    fn next(&mut self) -> Option<Line<'a>> {
+        loop {
+            let (k, line) = self.lines.next()?;
+            let text = line.split('#').next().unwrap_or_default().trim();
+            if !text.is_empty() {
+                return Some(Line { path: self.path, number: k + 1, text });
+            }
+        }
+    }
 }
 
 impl<'a> Line<'a> {

@@ -11,6 +11,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
+mod odd;
+
 /// A file of this name that is removed at the end of the test.
 struct Scratch(PathBuf);
 

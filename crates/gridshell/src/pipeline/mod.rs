@@ -104,7 +104,7 @@ fn lay(
     let triangulated: Vec<(Grid, triangulate::Report)> = starts
         .par_iter()
         .map(|start| match &start.grid {
-            Some(grid) => Ok((grid.clone(), triangulate::Report::default())),
+            Some(connected) => Ok(connected.clone()),
             None => triangulate::triangulate(surface, &start.bubbles),
         })
         .collect::<Result<_>>()?;
@@ -140,9 +140,9 @@ fn lay(
     stages.push(StageReport {
         name: "triangulate",
         seconds: triangulated_in,
-        converged: true,
+        converged: !report.work.cut_short,
         quality: Some(packed_quality),
-        notes: Vec::new(),
+        notes: report.work.note().into_iter().collect(),
         grid: Some(exact(grid.clone(), surface)),
     });
     stages.push(StageReport {
@@ -230,6 +230,12 @@ fn warnings(surface: &Surface, wanted: usize, report: &triangulate::Report) -> V
             )
         })
         .collect();
+    if report.work.cut_short {
+        warnings.push(
+            "the surface's own triangles are so thin that connecting nodes was cut short: repair or simplify it, or ask for longer members"
+                .into(),
+        );
+    }
     if wanted < 4 * surface.loops.len() {
         warnings.push("the wanted length is large for this surface; expect a coarse grid".into());
     }

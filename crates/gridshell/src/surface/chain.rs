@@ -88,15 +88,14 @@ impl Chain {
     pub fn locate(&self, s: f64) -> (usize, f64) {
         let s = self.wrap(s);
         let last = self.segments.len() - 1;
-        // Segments are about equally long: the right one is near the guess.
+        // Where segments are equally long, the right one is the first guess.
         let guess = s * (last + 1) as f64 / self.arc[last + 1].max(f64::MIN_POSITIVE);
-        let mut k = (guess as usize).min(last);
-        while k < last && self.arc[k + 1] <= s {
-            k += 1;
-        }
-        while k > 0 && self.arc[k] > s {
-            k -= 1;
-        }
+        let guess = (guess as usize).min(last);
+        let k = if self.arc[guess] <= s && s < self.arc[guess + 1] {
+            guess
+        } else {
+            self.arc[1..=last].partition_point(|&a| a <= s)
+        };
         let (a, b) = (self.arc[k], self.arc[k + 1]);
         (k, if b > a { ((s - a) / (b - a)).clamp(0.0, 1.0) } else { 0.0 })
     }
