@@ -70,7 +70,7 @@ struct Words<'a> {
     path: &'a Path,
     /// The line that is being read, its words, and the lines below it.
     line: Option<Line<'a>>,
-    words: std::str::SplitAsciiWhitespace<'a>,
+    rest: std::str::SplitAsciiWhitespace<'a>,
     below: scan::Lines<'a>,
     /// The one line that they are the words of, where they are those of one.
     only: Option<Line<'a>>,
@@ -79,23 +79,23 @@ struct Words<'a> {
 impl<'a> Words<'a> {
     fn new(path: &'a Path, text: &'a str) -> Words<'a> {
         let below = scan::lines(path, text);
-        Words { path, line: None, words: "".split_ascii_whitespace(), below, only: None }
+        Words { path, line: None, rest: "".split_ascii_whitespace(), below, only: None }
     }
 
     /// The words of one line only.
     fn of(path: &'a Path, line: Line<'a>) -> Words<'a> {
-        let words = line.text.split_ascii_whitespace();
+        let rest = line.text.split_ascii_whitespace();
         let below = scan::lines(path, "");
-        Words { path, line: Some(line), words, below, only: Some(line) }
+        Words { path, line: Some(line), rest, below, only: Some(line) }
     }
 
     fn word(&mut self) -> Option<(Line<'a>, &'a str)> {
         loop {
-            if let (Some(line), Some(word)) = (self.line, self.words.next()) {
+            if let (Some(line), Some(word)) = (self.line, self.rest.next()) {
                 return Some((line, word));
             }
             let line = self.below.next()?;
-            (self.line, self.words) = (Some(line), line.text.split_ascii_whitespace());
+            (self.line, self.rest) = (Some(line), line.text.split_ascii_whitespace());
         }
     }
 
@@ -115,7 +115,7 @@ impl<'a> Words<'a> {
 
     /// How many words are left in this line.
     fn left(&self) -> usize {
-        self.words.clone().count()
+        self.rest.clone().count()
     }
 }
 
