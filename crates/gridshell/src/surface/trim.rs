@@ -154,7 +154,9 @@ impl<'a> Tracer<'a> {
             }
             if let Some(&end) = runs.last().and_then(|r| r.nodes.last()) {
                 let shift = self.shift(&end, &nodes[0]);
-                nodes.iter_mut().for_each(|n| n.uv += shift);
+                for n in &mut nodes {
+                    n.uv += shift;
+                }
                 runs.extend(pole_run(end, nodes[0]));
             }
             runs.push(Run { edge: Some(c.edge), nodes, t });

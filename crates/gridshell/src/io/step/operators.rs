@@ -133,7 +133,7 @@ fn of_attributes(
         );
     }
     let at = |k: usize| text.get(reference(text.words(&list[k]))?).and_then(|r| text.xyz(r));
-    let way = |k: usize| at(k).map(DVec3::from).and_then(|d| d.try_normalize());
+    let way = |k: usize| at(k).map(DVec3::from).and_then(DVec3::try_normalize);
     let scale = match text.words(&list[3]) {
         b"$" => Some(1.0),
         words => number(words),

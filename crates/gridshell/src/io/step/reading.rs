@@ -302,7 +302,9 @@ impl<'m> Reading<'m> {
         if place.determinant() < 0.0 {
             // Seen in a mirror the outside is against du x dv, and the surface to the right of its loops.
             face.reversed = !reversed;
-            face.loops.iter_mut().for_each(|l| flip(l));
+            for coedges in &mut face.loops {
+                flip(coedges);
+            }
         }
         Ok(face)
     }

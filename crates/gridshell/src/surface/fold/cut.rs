@@ -97,12 +97,11 @@ impl Cutter<'_, '_> {
                 &all[k][from.min(to)..to]
             };
             let lines = if inside(0).len() >= inside(1).len() { inside(0) } else { inside(1) };
-            match lines.get(lines.len() / 2) {
-                Some(line) => open.extend(self.cut(rings, line)?),
-                None => {
-                    let shape = Shape::Nurbs(folds.piece(self.patch, 0.5 * (lo + hi))?);
-                    cells.push(Cell { shape, rings });
-                }
+            if let Some(line) = lines.get(lines.len() / 2) {
+                open.extend(self.cut(rings, line)?);
+            } else {
+                let shape = Shape::Nurbs(folds.piece(self.patch, 0.5 * (lo + hi))?);
+                cells.push(Cell { shape, rings });
             }
         }
         Some(cells)

@@ -39,7 +39,7 @@ impl Draft {
         Mark { edges: self.edges.len(), vertices: self.vertices.len(), parted: self.parted.len() }
     }
 
-    pub fn back_to(&mut self, mark: Mark) {
+    pub fn back_to(&mut self, mark: &Mark) {
         for edge in self.parted.drain(mark.parted..).rev() {
             self.splits[edge as usize].pop();
         }

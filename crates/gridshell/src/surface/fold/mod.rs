@@ -58,7 +58,7 @@ pub fn split_folds(brep: &mut Brep) {
         let mark = draft.mark();
         match part(&parted, *i, lines, &edges, &mut draft) {
             Some(cells) if cells.len() > 1 => parts.push((*i, cells)),
-            _ => draft.back_to(mark),
+            _ => draft.back_to(&mark),
         }
     }
     if parts.is_empty() {

@@ -29,7 +29,7 @@ pub(super) type Ring = Vec<Piece>;
 pub(super) fn of_face(tracer: &Tracer, face: &BrepFace) -> Result<Vec<Ring>, String> {
     let mut rings: Vec<Ring> = Vec::new();
     for runs in tracer.runs(face)? {
-        let mut ring: Ring = runs.into_iter().map(piece).collect();
+        let mut ring: Ring = runs.iter().map(piece).collect();
         // Neighbours agree on where they meet to the last digit.
         for i in 0..ring.len() {
             let end = ring[i].path[ring[i].path.len() - 1].uv;
@@ -48,7 +48,7 @@ pub(super) fn of_face(tracer: &Tracer, face: &BrepFace) -> Result<Vec<Ring>, Str
     Ok(rings)
 }
 
-fn piece(run: Run) -> Piece {
+fn piece(run: &Run) -> Piece {
     let (first, last) = (run.nodes[0], run.nodes[run.nodes.len() - 1]);
     let path = run.nodes.iter().zip(&run.t).map(|(n, &t)| Spot { t, uv: n.uv }).collect();
     Piece { edge: run.edge, ends: [first.vertex, last.vertex], path }

@@ -82,7 +82,7 @@ fn creases() -> Fixtures<'static> {
 }
 
 fn length(surface: &Surface) -> f64 {
-    surface.features.iter().map(|f| f.length()).sum()
+    surface.features.iter().map(crate::surface::Chain::length).sum()
 }
 
 fn near(a: f64, b: f64) -> bool {
