@@ -56,8 +56,7 @@ impl Surface {
             let origin = self.origin;
             let mut cutter = Cutter::new(self, wanted.edge_length);
             for (i, guide) in wanted.guides.iter().enumerate() {
-                let thinned =
-                    thin_guide(i, guide, wanted.corner_angle, wanted.edge_length, origin);
+                let thinned = thin_guide(i, guide, wanted.corner_angle, wanted.edge_length, origin);
                 let guide = match &thinned {
                     Some((guide, note)) => {
                         notes.push(note.clone());
