@@ -59,7 +59,8 @@ pub fn run(args: &Measure) -> Result<Outcome, Failure> {
         })?;
     } else {
         let warnings = measured.validity().warnings();
-        let warnings: String = warnings.iter().map(|w| format!("warning: {w}\n")).collect();
+        let warnings: Vec<String> = warnings.iter().map(|w| format!("warning: {w}\n")).collect();
+        let warnings = warnings.concat();
         say::result(&(table::grid(name, quality, figures) + &warnings))?;
     }
     reported.map(|()| Outcome::Done)

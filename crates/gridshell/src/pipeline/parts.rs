@@ -73,7 +73,7 @@ pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
         Parts::All if parts.len() > MOST_LAID => Err(too_many(&parts)),
         Parts::All if parts.len() > 1 => {
             let pieces = Pieces::new(model, &parts, recipe)?;
-            let surfaces = pieces.each(|part, recipe| Ok(whole(part, recipe)?.0))?.done;
+            let surfaces = pieces.each(|part, recipe| Ok(whole(part, recipe)?.0))?.results;
             Ok((Surface::side_by_side(surfaces).0, pieces.length))
         }
         Parts::One if parts.len() > 1 => Err(Error::Surface(choice(model, &parts))),
@@ -114,8 +114,8 @@ fn too_many(parts: &[Vec<u32>]) -> Error {
 /// One grid with a piece on each part.
 fn all(model: &Model, parts: &[Vec<u32>], recipe: &Recipe, job: &Job) -> Result<Run> {
     let pieces = Pieces::new(model, parts, recipe)?;
-    let Done { numbers, done, failed } = pieces.each(|part, recipe| single(part, recipe, job))?;
-    let (runs, surfaces) = done.into_iter().unzip();
+    let Done { numbers, results, failed } = pieces.each(|part, recipe| single(part, recipe, job))?;
+    let (runs, surfaces) = results.into_iter().unzip();
     let (surface, offsets) = Surface::side_by_side(surfaces);
     let mut run = join(model, &surface, &offsets, &numbers, runs, recipe, pieces.length, job)?;
     let asked = recipe.skip_parts.iter();
@@ -145,7 +145,7 @@ struct Pieces {
 /// What was done for the parts that it could be done for.
 struct Done<T> {
     numbers: Vec<usize>,
-    done: Vec<T>,
+    results: Vec<T>,
     failed: Vec<PartFailure>,
 }
 
@@ -199,7 +199,7 @@ impl Pieces {
     /// Something done for each part in turn. What is wrong with one does not keep it from the others, unless what was
     /// asked for is at fault: then the error tells the part.
     fn each<T>(&self, deed: impl Fn(&Model, &Recipe) -> Result<T>) -> Result<Done<T>> {
-        let (mut numbers, mut done, mut failed) = (Vec::new(), Vec::new(), self.failed.clone());
+        let (mut numbers, mut results, mut failed) = (Vec::new(), Vec::new(), self.failed.clone());
         for ((part, recipe), &number) in self.models.iter().zip(&self.recipes).zip(&self.numbers) {
             if self.skipped.contains(&number) {
                 continue;
@@ -208,14 +208,14 @@ impl Pieces {
             match deed(part, recipe) {
                 Ok(one) => {
                     numbers.push(number);
-                    done.push(one);
+                    results.push(one);
                 }
                 Err(error) if fixed => return Err(of_part(number, error)),
                 Err(error) => failed.push(failure(number, error)?),
             }
         }
         failed.sort_by_key(|f| f.number);
-        if done.is_empty() { Err(none(&failed)) } else { Ok(Done { numbers, done, failed }) }
+        if results.is_empty() { Err(none(&failed)) } else { Ok(Done { numbers, results, failed }) }
     }
 }
 

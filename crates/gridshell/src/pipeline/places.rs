@@ -14,13 +14,18 @@ pub fn local(recipe: &Recipe, origin: Origin) -> Recipe {
         let p = origin.local(DVec3::from_slice(xyz));
         xyz[..3].copy_from_slice(&p.to_array());
     };
-    recipe.guides.iter_mut().flatten().for_each(|p| place(p));
-    recipe.anchors.iter_mut().for_each(|p| place(p));
+    for p in recipe.guides.iter_mut().flatten().chain(&mut recipe.anchors) {
+        place(p);
+    }
     if let Size::Points { points } = &mut recipe.size {
-        points.iter_mut().for_each(|p| place(p));
+        for p in points {
+            place(p);
+        }
     }
     if let Direction::Points { points } = &mut recipe.direction {
-        points.iter_mut().for_each(|p| place(p));
+        for p in points {
+            place(p);
+        }
     }
     recipe
 }

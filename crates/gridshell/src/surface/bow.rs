@@ -27,7 +27,9 @@ impl Bows {
         let carrier = &surface.carrier;
         let mut around = vec![Vec::new(); carrier.points.len()];
         for (t, corners) in carrier.triangles.iter().enumerate() {
-            corners.iter().for_each(|&v| around[v as usize].push(t as u32));
+            for &v in corners {
+                around[v as usize].push(t as u32);
+            }
         }
         let normals: Vec<DVec3> =
             (0..carrier.triangles.len() as u32).map(|t| carrier.face_normal(t)).collect();

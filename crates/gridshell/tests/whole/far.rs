@@ -248,7 +248,9 @@ fn every_format_has_the_files_coordinates_and_ours_open_again() {
                 end == "saf.xlsx" || text.contains(first.trim_end_matches(".0")),
                 "{end}: {first}"
             );
-            written.iter().for_each(|p| std::fs::remove_file(p).unwrap());
+            for file in &written {
+                std::fs::remove_file(file).unwrap();
+            }
         }
         std::fs::remove_file(&path).unwrap();
     }
