@@ -114,7 +114,8 @@ fn too_many(parts: &[Vec<u32>]) -> Error {
 /// One grid with a piece on each part.
 fn all(model: &Model, parts: &[Vec<u32>], recipe: &Recipe, job: &Job) -> Result<Run> {
     let pieces = Pieces::new(model, parts, recipe)?;
-    let Done { numbers, results, failed } = pieces.each(|part, recipe| single(part, recipe, job))?;
+    let Done { numbers, results, failed } =
+        pieces.each(|part, recipe| single(part, recipe, job))?;
     let (runs, surfaces) = results.into_iter().unzip();
     let (surface, offsets) = Surface::side_by_side(surfaces);
     let mut run = join(model, &surface, &offsets, &numbers, runs, recipe, pieces.length, job)?;
