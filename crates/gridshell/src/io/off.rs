@@ -66,7 +66,6 @@ enum Rest {
 
 /// The words of the file, each with its line.
 #[derive(Clone)]
-#[expect(clippy::struct_field_names, reason = "the words of a line are its words")]
 struct Words<'a> {
     path: &'a Path,
     /// The line that is being read, its words, and the lines below it.
@@ -204,7 +203,7 @@ impl Head {
         for _ in 0..self.faces {
             let corners = face(&mut words, body.0.len())?;
             if rest == Rest::ToLineEnd {
-                words.words = "".split_ascii_whitespace();
+                words.rest = "".split_ascii_whitespace();
             }
             // Two corners or one draw a line or a point, which are no part of the surface.
             if corners.len() >= 3 {

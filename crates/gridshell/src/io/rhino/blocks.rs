@@ -38,16 +38,15 @@ struct Definition {
 
 struct Placed {
     definition: String,
-    at: DAffine3,
+    place: DAffine3,
     shown: bool,
 }
 
 /// A place of a member of a block.
 #[derive(Clone)]
-#[expect(clippy::struct_field_names, reason = "where its member is placed")]
 pub(super) struct Place {
     member: String,
-    place: DAffine3,
+    at: DAffine3,
     pub shown: bool,
 }
 
