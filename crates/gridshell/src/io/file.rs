@@ -46,10 +46,8 @@ pub fn read_at_most(path: &Path, most: u64) -> Result<Vec<u8>> {
 /// As [`read`]; [`Error::Parse`] where it is no UTF-8.
 pub fn read_text(path: &Path, most: u64) -> Result<String> {
     String::from_utf8(read_at_most(path, most)?).map_err(|e| {
-        let line = 1 + e.as_bytes()[..e.utf8_error().valid_up_to()]
-            .iter()
-            .filter(|&&b| b == b'\n')
-            .count();
+        let text = &e.as_bytes()[..e.utf8_error().valid_up_to()];
+        let line = text.split(|&b| b == b'\n').count();
         refusal(
             path,
             &format!("line {line}"),

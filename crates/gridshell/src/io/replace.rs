@@ -111,19 +111,19 @@ impl Target {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         for _ in 1..TRIES {
-            let file = builder.tempfile_in(&self.folder).map_err(plain)?;
+            let file = builder.tempfile_in(&self.folder).map_err(|e| plain(&e))?;
             // Where files cannot be locked none is cleared away either.
             let _ = file.as_file().lock();
             if file.path().exists() {
                 return Ok(file);
             }
         }
-        builder.tempfile_in(&self.folder).map_err(plain)
+        builder.tempfile_in(&self.folder).map_err(|e| plain(&e))
     }
 }
 
 /// The same without the name that was drawn, which tells nobody anything.
-fn plain(error: std::io::Error) -> std::io::Error {
+fn plain(error: &std::io::Error) -> std::io::Error {
     error.kind().into()
 }
 
