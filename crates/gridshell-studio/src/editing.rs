@@ -3,6 +3,7 @@
 use crate::message::{Event, Step};
 use gridshell::edit::{Edit, Editor, Effect, Refusal};
 use gridshell::error::{Error, Result};
+use gridshell::job::Job;
 use gridshell::pipeline;
 use gridshell::run::Run;
 use gridshell::surface::Model;
@@ -16,8 +17,8 @@ const SUGGESTED: usize = 8;
 ///
 /// # Errors
 /// What making the surface anew says.
-pub fn editor(model: &Model, run: &Run) -> Result<Editor> {
-    let (surface, _) = pipeline::surface(model, &run.recipe)?;
+pub fn editor(model: &Model, run: &Run, job: &Job) -> Result<Editor> {
+    let (surface, _) = pipeline::surface(model, &run.recipe, job)?;
     Ok(Editor::new(Arc::new(surface), run.grid.clone(), run.recipe.clone(), run.edge_length))
 }
 

@@ -7,6 +7,7 @@ use gridshell::edit::Editor;
 use gridshell::error::Result;
 use gridshell::grid::Grid;
 use gridshell::io::{Document, Reference};
+use gridshell::job::Job;
 use gridshell::recipe::Recipe;
 use gridshell::reopen;
 use gridshell::run::Run;
@@ -82,13 +83,13 @@ impl Laid {
     }
 
     /// Keep a grid that was read from a file under `number`.
-    pub fn of_file(number: u32, read: reopen::Opened, opened: Arc<Opened>) -> Laid {
+    pub fn of_file(number: u32, read: reopen::Opened, opened: Arc<Opened>) -> Result<Laid> {
         let reopen::Opened { document, grid, surface, edge_length, recipe, notes, .. } = read;
         let editor = Editor::new(Arc::new(surface), grid, recipe.clone(), edge_length);
-        let now = Now::of(editor, edge_length, &recipe);
+        let now = Now::of(editor, edge_length, &recipe)?;
         let now = Mutex::new(now);
         let origin = Some("from a file".to_owned());
-        Laid { number, opened, run: None, document, recipe, edge_length, notes, origin, now }
+        Ok(Laid { number, opened, run: None, document, recipe, edge_length, notes, origin, now })
     }
 
     /// What it is now.
@@ -129,8 +130,8 @@ impl Laid {
     pub fn edit<T>(&self, work: impl FnOnce(&mut Editor) -> Result<T>) -> Result<T> {
         let mut now = self.now();
         if let (None, Some(run)) = (&now.editor, &self.run) {
-            let editor = editing::editor(&self.opened.model, run)?;
-            *now = Now::of(editor, self.edge_length, &self.recipe);
+            let editor = editing::editor(&self.opened.model, run, &Job::default())?;
+            *now = Now::of(editor, self.edge_length, &self.recipe)?;
         }
         let editor = now.editor.as_mut().expect("a grid from a file has one from the start");
         work(editor)
@@ -141,15 +142,15 @@ impl Laid {
         self.edit(work)?;
         let mut now = self.now();
         if let Some(editor) = now.editor.take() {
-            *now = Now::of(editor, self.edge_length, &self.recipe);
+            *now = Now::of(editor, self.edge_length, &self.recipe)?;
         }
         Ok(())
     }
 
     /// The grid as it is, numbered without gaps.
-    pub fn finished(&self) -> Finished {
+    pub fn finished(&self) -> Result<Finished> {
         let now = self.now();
-        match (&now.editor, &self.run) {
+        Ok(match (&now.editor, &self.run) {
             (None, Some(run)) => Finished {
                 document: self.document.clone(),
                 grid: run.grid.clone(),
@@ -159,19 +160,26 @@ impl Laid {
             (Some(editor), _) => {
                 let tolerances = Tolerances::from(&self.recipe.measure);
                 let grid = editor.finished();
-                let schedule = Schedule::new(&grid, editor.surface(), &tolerances);
+                let schedule =
+                    Schedule::new(&grid, editor.surface(), &tolerances, &Job::default())?;
                 let panels = schedule.panels.nodes.clone();
                 let document = Document { panels, ..reopen::edited(&self.document, editor) };
                 Finished { document, grid, schedule }
             }
-        }
+        })
     }
 }
 
 impl Now {
     /// What an editor's grid is.
-    fn of(editor: Editor, edge_length: f64, recipe: &Recipe) -> Now {
-        let quality = measure(&editor.finished(), editor.surface(), edge_length, &recipe.measure);
-        Now { grid: Arc::new(editor.grid().clone()), quality, editor: Some(editor) }
+    fn of(editor: Editor, edge_length: f64, recipe: &Recipe) -> Result<Now> {
+        let quality = measure(
+            &editor.finished(),
+            editor.surface(),
+            edge_length,
+            &recipe.measure,
+            &Job::default(),
+        )?;
+        Ok(Now { grid: Arc::new(editor.grid().clone()), quality, editor: Some(editor) })
     }
 }
