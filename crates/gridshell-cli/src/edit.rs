@@ -5,6 +5,7 @@ use crate::args::Edit;
 use crate::failure::Failure;
 use crate::progress::Work;
 use crate::{handover, recipe, say};
+use gridshell::Error;
 use gridshell::edit::{Editor, Figures, Log};
 use gridshell::io::GridFile;
 use gridshell::reopen::{self, Opened};
@@ -52,14 +53,19 @@ pub fn run(args: &Edit, work: &Work) -> Result<Outcome, Failure> {
     let mut editor = Editor::new(Arc::new(surface), grid, recipe, edge_length);
     let before = editor.figures();
     if let (Some(log), Some(path)) = (log, &args.log) {
-        editor.replay(&log).map_err(|e| Failure::input(path, e))?;
+        editor.replay(&log, job).map_err(|e| match e {
+            Error::Stopped { .. } => Failure::from(e),
+            e => Failure::input(path, e),
+        })?;
     }
     let steps = |edits: Vec<(gridshell::edit::Edit, Figures)>| -> Vec<Step> {
         edits.into_iter().map(|(edit, after)| Step { edit, after }).collect()
     };
     let edits = steps(editor.history().map(|(e, f)| (e.clone(), f.after)).collect());
     let suggested =
-        steps(editor.suggest(args.suggest).into_iter().map(|(e, f)| (e, f.after)).collect());
+        steps(editor.suggest(args.suggest, job).into_iter().map(|(e, f)| (e, f.after)).collect());
+    // What was done is there: what remains is to write it.
+    let job = &job.after();
     let grid = editor.finished();
     let schedule = Schedule::new(&grid, editor.surface(), &tolerances, job)?;
     let mut document = reopen::edited(&document, &editor);
@@ -80,7 +86,7 @@ pub fn run(args: &Edit, work: &Work) -> Result<Outcome, Failure> {
     for n in &notes {
         say::note(&format!("note: {n}"));
     }
-    Ok(Outcome::Done)
+    Ok(if work.job.stopped() { Outcome::Stopped } else { Outcome::Done })
 }
 
 fn read_log(path: &Path) -> Result<Log, Failure> {

@@ -182,7 +182,7 @@ fn edit(criterion: &mut Criterion) {
             b.iter(|| editor.preview(black_box(&flip)).unwrap());
         });
         group.bench_function(id("hover"), |b| b.iter(|| editor.hover(nodes[0], nodes[1])));
-        group.bench_function(id("suggest 10"), |b| b.iter(|| editor.suggest(10)));
+        group.bench_function(id("suggest 10"), |b| b.iter(|| editor.suggest(10, &Job::default())));
         let id = id("apply and undo a flip");
         group.bench_function(id, |b| {
             b.iter(|| {

@@ -38,6 +38,8 @@ struct State {
     runs: Vec<Arc<Laid>>,
     numbers: u32,
     going: Option<Going>,
+    /// What is being opened, or was last.
+    opening: Option<Job>,
     /// Another work that goes on: an edit, say.
     work: Option<Job>,
     /// The recipe of the grid that was opened last, and its number: what the form begins with.
@@ -114,7 +116,7 @@ impl Desk {
     pub fn cancel(&self) {
         let state = self.state();
         let going = state.going.iter().map(|going| &going.job);
-        going.chain(&state.work).for_each(Job::cancel);
+        going.chain(&state.work).chain(&state.opening).for_each(Job::cancel);
     }
 
     /// Begin something that may take a while: told of when it does, until it is dropped.
@@ -143,6 +145,13 @@ impl Desk {
             Some(limit) => Job::default().with_memory_limit(limit),
             None => Job::default(),
         }
+    }
+
+    /// A job for opening something.
+    fn opening(&self) -> Job {
+        let job = self.job();
+        self.state().opening = Some(job.clone());
+        job
     }
 
     /// The next grid's number.

@@ -59,6 +59,7 @@ use std::path::Path;
 
 /// What a stop in here is told as.
 pub(crate) const READING: &str = "reading";
+const WRITING: &str = "writing";
 
 /// Extensions of the mesh formats.
 pub(crate) const MESH_FORMATS: &str = "obj, ply, stl, off, gltf, glb, json";

@@ -5,6 +5,7 @@ use super::scan::{self, Line};
 use super::soup::Soup;
 use super::{LengthUnit, file, text};
 use crate::error::Result;
+use crate::io::WRITING;
 use crate::job::Job;
 use glam::DVec3;
 use std::fmt::Write;
@@ -80,7 +81,7 @@ fn face(line: &Line, count: usize) -> Result<Vec<u32>> {
 }
 
 /// The grid as OFF; the format has no place for members.
-pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
+pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     let mut out = String::from("OFF\n");
     for line in grid.header() {
         let _ = writeln!(out, "# {line}");
@@ -92,10 +93,10 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
         grid.schedule.panels.nodes.len(),
         grid.schedule.members.ends.len()
     );
-    for DVec3 { x, y, z } in &grid.schedule.nodes.xyz {
+    for DVec3 { x, y, z } in grid.schedule.nodes.xyz.iter().take_while(|_| !job.is_over(WRITING)) {
         let _ = writeln!(out, "{x} {y} {z}");
     }
-    for [a, b, c] in &grid.schedule.panels.nodes {
+    for [a, b, c] in grid.schedule.panels.nodes.iter().take_while(|_| !job.is_over(WRITING)) {
         let _ = writeln!(out, "3 {a} {b} {c}");
     }
     out.into_bytes()

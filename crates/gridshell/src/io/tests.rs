@@ -638,17 +638,19 @@ fn a_grid_file_reads_back_to_the_last_bit() {
             .document
     };
     document.nodes = xyz.iter().map(DVec3::to_array).collect();
-    let file = Scratch::new("again.gridshell", native::encode(&document));
+    let file = Scratch::new("again.gridshell", native::encode(&document, &Job::default()));
     let back = read_document(&file.0, &Job::default()).expect("a grid file");
     assert_eq!(back, document);
     assert!(back.nodes[0][1].is_sign_negative());
-    assert_eq!(native::encode(&back), fs::read(&file.0).expect("readable"));
+    assert_eq!(native::encode(&back, &Job::default()), fs::read(&file.0).expect("readable"));
 }
 
 #[test]
 fn grid_files_that_are_none_are_refused_with_where() {
-    let good =
-        native::encode(&Made::new(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]]).document);
+    let good = native::encode(
+        &Made::new(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]]).document,
+        &Job::default(),
+    );
     let good = String::from_utf8(good).expect("JSON");
     for (from, to, told) in [
         ("gridshell.grid/1", "gridshell.grid/9", "schema: its schema is `gridshell.grid/9`"),

@@ -16,7 +16,7 @@ mod wishes;
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::job::{Job, Picture};
+use crate::job::Job;
 use crate::recipe::{Recipe, Symmetry};
 use crate::run::{CandidateReport, Run, SCHEMA, StageReport, SurfaceSummary};
 use crate::schedule::{Schedule, Tolerances};
@@ -30,6 +30,10 @@ use std::time::Instant;
 
 /// Chord error of the carrier over l0. Nodes end on the exact surface; until then they may be this far off.
 const CARRIER_CHORD: f64 = 2e-3;
+/// Memory that a run takes for each node, bytes: less than what was seen, so that nothing is refused that would go.
+const BYTES_A_NODE: f64 = 1500.0;
+/// Of a run that was stopped, larger grids of the stages before the last are not measured: it is to end within a second.
+const MOST_MEASURED_LATE: usize = 20_000;
 /// Nodes of a grid whose edge length nobody gave.
 const SENSIBLE_NODES: usize = 1000;
 
@@ -46,6 +50,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
 /// Lay a grid on a model of one part; the surface that it was laid on is given too.
 fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
     let Scale { length, nodes } = scale(model, recipe, job)?;
+    job.reserve(nodes * BYTES_A_NODE, &format!("a grid of about {nodes:.0} nodes"))?;
     let make = |l: f64| model.surface(&sampling(l, nodes, recipe), job);
     let (surface, mut fixed) = wishes::surface(recipe, length, make, job)?;
     let size = Scale { length, nodes };
@@ -91,8 +96,10 @@ fn lay(
     // A grid that is there is finished and told, whatever the job.
     let end = job.finishing();
     let judge = |grid: &Grid| measure(grid, surface, length, &recipe.measure, &end);
-    let judge_on_the_way =
-        |grid: &Grid| if job.stopped() { Ok(None) } else { judge(grid).map(Some) };
+    let judge_on_the_way = |grid: &Grid| {
+        let skipped = job.stopped() && grid.xyz.len() > MOST_MEASURED_LATE;
+        if skipped { Ok(None) } else { judge(grid).map(Some) }
+    };
 
     let clock = Instant::now();
     let Starts { starts, notes } = starts::starts(surface, length, &budget, job)?;
@@ -123,7 +130,6 @@ fn lay(
     let mut warnings = fixed;
     warnings.extend(self::warnings(surface, bubbles.len(), report));
     // Bubbles have no members yet: what is measured, as in the paper's Table 3, is their Delaunay grid.
-    job.progress("measure", 0.0, Picture::None);
     let packed_quality = judge_on_the_way(grid)?;
     stages.push(StageReport {
         name: "pack",

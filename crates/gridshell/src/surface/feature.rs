@@ -10,7 +10,7 @@ use super::cut::Cutter;
 use super::track::Track;
 use super::{Chain, Surface, SurfacePoint, carrier::NONE};
 use crate::error::Result;
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use crate::math::trig;
 use glam::DVec3;
 
@@ -55,10 +55,12 @@ impl Surface {
             let mut cutter = Cutter::new(self, wanted.edge_length);
             for (i, guide) in wanted.guides.iter().enumerate() {
                 job.check("fixing guides")?;
+                job.progress("fix", i as f64 / wanted.guides.len() as f64, Picture::None);
                 notes.extend(cutter.cut_guide(i, guide)?);
             }
             for (i, &anchor) in wanted.anchors.iter().enumerate() {
                 job.check("fixing anchors")?;
+                job.progress("fix", i as f64 / wanted.anchors.len() as f64, Picture::None);
                 let (vertex, note) = cutter.put_anchor(i, anchor)?;
                 anchors.push(vertex);
                 notes.extend(note);

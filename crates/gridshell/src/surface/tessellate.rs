@@ -13,10 +13,11 @@ use super::track::{Track, Tracks};
 use super::trim::{Edges, NEW, Node, Polyline, Tracer, Trim};
 use super::{PREPARING, Surface, area, chain, fill, order, sample, seam, weave};
 use crate::error::{Error, Result};
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// More triangles than this are not made.
 const MOST_TRIANGLES: f64 = 8e6;
@@ -52,6 +53,7 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Surface
     let (mut points, polylines) = sample_edges(brep, sampling, job)?;
     let curves: Vec<_> = brep.edges.iter().map(|e| e.curve.clone()).collect();
     let edges = Edges { curves: &curves, polylines: &polylines, points: &points };
+    let done = AtomicUsize::new(0);
     let pieces: Vec<Piece> = brep
         .faces
         .par_iter()
@@ -60,6 +62,8 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Surface
             let made = piece(face, &edges, sampling, job);
             // What was broken off tells nothing of the face.
             job.check(PREPARING)?;
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            job.progress("surface", done as f64 / brep.faces.len() as f64, Picture::None);
             made.map_err(|what| fault(i, &what))
         })
         .collect::<Result<_>>()?;

@@ -19,12 +19,15 @@ pub use quality::{Border, Degrees, EdgeLength, Irregular, IrregularNode, Lengths
 use crate::degree::{REGULAR, adjusted_degree, boundary_angle, virtual_degree, weight};
 use crate::error::Result;
 use crate::grid::{Grid, Place};
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use crate::recipe;
 use crate::surface::Surface;
 use glam::DVec3;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
+/// What a stop in here is told as.
+const PHASE: &str = "measuring";
 /// Below this, the denominator of Q (Eq. 31) is rounding and the grid a perfect lattice.
 const PERFECT: f64 = 1e-9;
 
@@ -39,15 +42,22 @@ pub fn measure(
     options: &recipe::Measure,
     job: &Job,
 ) -> Result<Quality> {
-    let off = |distance: &dyn Fn(&Place, DVec3) -> f64| {
-        let places = grid.places.iter().zip(&grid.xyz);
-        places.map(|(p, x)| distance(p, *x)).fold(0.0, f64::max) / edge_length
+    let off = |distance: &(dyn Fn(&Place, DVec3) -> f64 + Sync)| {
+        let places = grid.places.par_iter().zip(&grid.xyz);
+        let places = places.take_any_while(|_| !job.is_over(PHASE));
+        // The largest does not hang on the order.
+        places.map(|(p, x)| distance(p, *x)).reduce(|| 0.0, f64::max) / edge_length
     };
-    job.check("measuring")?;
+    job.check(PHASE)?;
+    job.progress("measure", 0.0, Picture::None);
+    let surface_deviation = off(&|place, xyz| place.off_surface(surface, xyz));
+    let boundary_deviation = off(&|place, xyz| place.off_boundary(surface, xyz));
+    let bridging_members = bridging::count_with(grid, surface, edge_length, job);
+    job.check(PHASE)?;
     Ok(Quality {
-        surface_deviation: off(&|place, xyz| place.off_surface(surface, xyz)),
-        boundary_deviation: off(&|place, xyz| place.off_boundary(surface, xyz)),
-        bridging_members: bridging::count(grid, surface, edge_length),
+        surface_deviation,
+        boundary_deviation,
+        bridging_members,
         ..compare(grid, surface, edge_length, options)
     })
 }
