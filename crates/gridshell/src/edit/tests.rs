@@ -39,7 +39,8 @@ fn start(name: &str, length: f64, guided: bool) -> (Arc<Surface>, Grid, Recipe) 
     let mut rng = fastrand::Rng::with_seed(3);
     let count = pack::interior_count(&surface, bubbles.len(), length, 1.0);
     let held = bubbles.xyz(&surface);
-    bubbles.interior = pack::scatter(&surface, count, &held, 0.6 * length, &mut rng);
+    bubbles.interior =
+        pack::scatter(&surface, count, &held, 0.6 * length, &mut rng, &Job::default());
     let recipe = Recipe { edge_length: Some(length), ..Recipe::default() };
     pack::settle(&surface, &mut bubbles, length, &recipe.pack, &crate::job::Job::default());
     let mut grid =
@@ -83,7 +84,8 @@ fn assert_sound(editor: &Editor, euler: i64) {
         editor.edge_length,
         &editor.recipe.measure,
         &Job::default(),
-    );
+    )
+    .unwrap();
     assert_eq!(quality.folded_panels, 0);
     assert!(quality.surface_deviation < 1e-9, "{}", quality.surface_deviation);
     assert!(quality.boundary_deviation < 1e-9, "{}", quality.boundary_deviation);

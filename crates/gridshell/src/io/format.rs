@@ -6,7 +6,6 @@ use super::{
 };
 use crate::error::{Error, Result};
 use crate::io::WRITING;
-use crate::job::Job;
 use crate::job::{Job, Picture};
 use std::path::{Path, PathBuf};
 

@@ -46,7 +46,8 @@ struct Made {
 impl Made {
     fn new(xyz: &[DVec3], panels: &[[u32; 3]]) -> Made {
         let (grid, surface) = Grid::alone("made", xyz.to_vec(), panels).expect("a manifold");
-        let schedule = Schedule::new(&grid, &surface, &Tolerances::default(), &Job::default());
+        let schedule =
+            Schedule::new(&grid, &surface, &Tolerances::default(), &Job::default()).unwrap();
         let supports = Supports::Boundary.nodes(&grid, &surface).expect("a boundary");
         let document =
             Document { seed: Some(1), supports, ..Document::of_grid("made, seed 1", &grid) };
@@ -55,7 +56,7 @@ impl Made {
 
     fn write(&self, path: &Path) {
         let Made { document, schedule, structure } = self;
-        write(path, &GridFile { document, schedule, structure }).expect("written");
+        write(path, &GridFile { document, schedule, structure }, &Job::default()).expect("written");
     }
 }
 
