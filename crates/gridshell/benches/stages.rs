@@ -133,7 +133,7 @@ fn scale(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group("scale");
         group.sample_size(10);
         group.bench_function(id("tessellate"), |b| {
-            b.iter(|| model.surface(&sampling, &Job::default()).unwrap())
+            b.iter(|| model.surface(&sampling, &Job::default()).unwrap());
         });
         group.bench_function(id("flatten"), |b| b.iter(flatten));
         group.bench_function(id("lay a lattice"), |b| b.iter(lay));

@@ -104,7 +104,7 @@ fn every_file_opens_with_the_area_loops_and_corners_of_its_table() {
     let mut faults_of_all = Vec::new();
     for row in rows() {
         let name = row.path.file_name().unwrap().to_string_lossy().into_owned();
-        let found = match open(&row, &Job::default()) {
+        let found = match open(&row) {
             None => continue,
             Some(Err(e)) => vec![e],
             Some(Ok((model, surface))) => faults(&row, &model, &surface),
@@ -122,7 +122,7 @@ fn alike(start: &str) -> Vec<Surface> {
     let models: Vec<Model> = rows()
         .iter()
         .filter(|r| r.path.file_name().unwrap().to_string_lossy().starts_with(start))
-        .filter_map(|r| open(r, &Job::default()).map(|s| s.unwrap().0))
+        .filter_map(|r| open(r).map(|s| s.unwrap().0))
         .collect();
     // A size is looked up at a few points of each edge: files that cut edges elsewhere differ in its fourth digit.
     let max_edge = EDGE * models[0].size();
@@ -165,12 +165,12 @@ fn layers_and_objects_of_a_rhino_file_are_chosen_by_name() {
         Model::Mesh(_) => 0,
     };
     // Ball, box, tube and beam; the mesh is told, the line is none of our business.
-    assert_eq!(kinds(&load(&[], &[], &Job::default()).unwrap()), 4);
-    assert_eq!(load(&["Tubes"], &[], &Job::default()).unwrap().parts().len(), 2);
-    assert_eq!(load(&["tubes"], &["beam"], &Job::default()).unwrap().parts().len(), 1);
-    assert_eq!(load(&[], &["box"], &Job::default()).unwrap().face_count(), 6);
-    let mesh = load(&["meshes"], &[], &Job::default()).unwrap();
+    assert_eq!(kinds(&load(&[], &[]).unwrap()), 4);
+    assert_eq!(load(&["Tubes"], &[]).unwrap().parts().len(), 2);
+    assert_eq!(load(&["tubes"], &["beam"]).unwrap().parts().len(), 1);
+    assert_eq!(load(&[], &["box"]).unwrap().face_count(), 6);
+    let mesh = load(&["meshes"], &[]).unwrap();
     assert!(matches!(&mesh, Model::Mesh(m) if !m.faces.is_empty()));
-    let unknown = load(&["roof"], &[], &Job::default()).unwrap_err().to_string();
+    let unknown = load(&["roof"], &[]).unwrap_err().to_string();
     assert!(unknown.contains("tubes") && unknown.contains("solids"), "{unknown}");
 }
