@@ -1,10 +1,10 @@
 //! What is kept, as files.
 
 use crate::laid::{Finished, Laid};
+use gridshell::job::Job;
 use gridshell::error::{Error, Result};
 use gridshell::grid::Grid;
 use gridshell::io::{self, Document, GridFile};
-use gridshell::job::Job;
 use gridshell::run::Run;
 use gridshell::schedule::Schedule;
 use gridshell::stages::measure::{Quality, irregular_nodes};
@@ -45,11 +45,11 @@ pub fn file(laid: &Laid, extension: &str, report: Option<Report>) -> Result<(Str
     let name = format!("{name}-{}.{extension}", laid.number);
     let unwritten = |e: &dyn Display| Error::Option(format!("{name}: {e}"));
     let bytes = match extension {
-        "run.json" => serde_json::to_vec_pretty(&run(laid)?).map_err(|e| unwritten(&e))?,
+        "run.json" => serde_json::to_vec_pretty(&run(laid)).map_err(|e| unwritten(&e))?,
         "edits.json" => laid.edit(|editor| Ok(editor.log().to_json()))?.into_bytes(),
         "report.html" => {
             let report = report.ok_or_else(|| unwritten(&"this program makes no reports"))?;
-            reported(laid, report)?.into_bytes()
+            reported(laid, report).into_bytes()
         }
         _ => {
             let folder = tempfile::tempdir().map_err(|e| unwritten(&e))?;
@@ -67,7 +67,7 @@ pub fn file(laid: &Laid, extension: &str, report: Option<Report>) -> Result<(Str
 
 /// Write the grid as it is.
 fn grid(laid: &Laid, path: &Path) -> Result<()> {
-    let Finished { document, schedule, .. } = laid.finished()?;
+    let Finished { document, schedule, .. } = laid.finished();
     let structure = Structure::default();
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
     io::write(path, &file, &Job::default()).map(|_| ())
@@ -84,23 +84,23 @@ fn zip(files: &[PathBuf]) -> std::io::Result<Vec<u8>> {
     Ok(archive.finish()?.into_inner())
 }
 
-fn reported(laid: &Laid, report: Report) -> Result<String> {
-    let Finished { document, grid, schedule } = laid.finished()?;
+fn reported(laid: &Laid, report: Report) -> String {
+    let Finished { document, grid, schedule } = laid.finished();
     let quality = laid.now().quality.clone();
-    Ok(report(&Reported {
+    report(&Reported {
         document: &document,
         grid: &grid,
         schedule: &schedule,
         quality: &quality,
         edge_length: laid.edge_length,
         run: laid.run.as_ref(),
-    }))
+    })
 }
 
 /// The run document. Where the grid was edited, its measures are those of the grid as it is, and the edits are told;
 /// stages and candidates stay the run's. A grid from a file has a document of its measures.
-fn run(laid: &Laid) -> Result<Value> {
-    let Finished { document, grid, schedule } = laid.finished()?;
+fn run(laid: &Laid) -> Value {
+    let Finished { document, grid, schedule } = laid.finished();
     let quality = laid.now().quality.clone();
     let mut told = match &laid.run {
         Some(run) => json!(run),
@@ -119,5 +119,5 @@ fn run(laid: &Laid) -> Result<Value> {
         told["irregular"] = json!(irregular_nodes(&grid));
         told["edits"] = json!(document.edits);
     }
-    Ok(told)
+    told
 }

@@ -3,11 +3,11 @@
 use crate::editing;
 use crate::message::RunSummary;
 use crate::opened::Opened;
+use gridshell::job::Job;
 use gridshell::edit::Editor;
 use gridshell::error::Result;
 use gridshell::grid::Grid;
 use gridshell::io::{Document, Reference};
-use gridshell::job::Job;
 use gridshell::recipe::Recipe;
 use gridshell::reopen;
 use gridshell::run::Run;
@@ -83,13 +83,13 @@ impl Laid {
     }
 
     /// Keep a grid that was read from a file under `number`.
-    pub fn of_file(number: u32, read: reopen::Opened, opened: Arc<Opened>) -> Result<Laid> {
+    pub fn of_file(number: u32, read: reopen::Opened, opened: Arc<Opened>) -> Laid {
         let reopen::Opened { document, grid, surface, edge_length, recipe, notes, .. } = read;
         let editor = Editor::new(Arc::new(surface), grid, recipe.clone(), edge_length);
-        let now = Now::of(editor, edge_length, &recipe)?;
+        let now = Now::of(editor, edge_length, &recipe);
         let now = Mutex::new(now);
         let origin = Some("from a file".to_owned());
-        Ok(Laid { number, opened, run: None, document, recipe, edge_length, notes, origin, now })
+        Laid { number, opened, run: None, document, recipe, edge_length, notes, origin, now }
     }
 
     /// What it is now.
@@ -131,7 +131,7 @@ impl Laid {
         let mut now = self.now();
         if let (None, Some(run)) = (&now.editor, &self.run) {
             let editor = editing::editor(&self.opened.model, run, &Job::default())?;
-            *now = Now::of(editor, self.edge_length, &self.recipe)?;
+            *now = Now::of(editor, self.edge_length, &self.recipe);
         }
         let editor = now.editor.as_mut().expect("a grid from a file has one from the start");
         work(editor)
@@ -142,15 +142,15 @@ impl Laid {
         self.edit(work)?;
         let mut now = self.now();
         if let Some(editor) = now.editor.take() {
-            *now = Now::of(editor, self.edge_length, &self.recipe)?;
+            *now = Now::of(editor, self.edge_length, &self.recipe);
         }
         Ok(())
     }
 
     /// The grid as it is, numbered without gaps.
-    pub fn finished(&self) -> Result<Finished> {
+    pub fn finished(&self) -> Finished {
         let now = self.now();
-        Ok(match (&now.editor, &self.run) {
+        match (&now.editor, &self.run) {
             (None, Some(run)) => Finished {
                 document: self.document.clone(),
                 grid: run.grid.clone(),
@@ -160,26 +160,19 @@ impl Laid {
             (Some(editor), _) => {
                 let tolerances = Tolerances::from(&self.recipe.measure);
                 let grid = editor.finished();
-                let schedule =
-                    Schedule::new(&grid, editor.surface(), &tolerances, &Job::default())?;
+                let schedule = Schedule::new(&grid, editor.surface(), &tolerances);
                 let panels = schedule.panels.nodes.clone();
                 let document = Document { panels, ..reopen::edited(&self.document, editor) };
                 Finished { document, grid, schedule }
             }
-        })
+        }
     }
 }
 
 impl Now {
     /// What an editor's grid is.
-    fn of(editor: Editor, edge_length: f64, recipe: &Recipe) -> Result<Now> {
-        let quality = measure(
-            &editor.finished(),
-            editor.surface(),
-            edge_length,
-            &recipe.measure,
-            &Job::default(),
-        )?;
-        Ok(Now { grid: Arc::new(editor.grid().clone()), quality, editor: Some(editor) })
+    fn of(editor: Editor, edge_length: f64, recipe: &Recipe) -> Now {
+        let quality = measure(&editor.finished(), editor.surface(), edge_length, &recipe.measure);
+        Now { grid: Arc::new(editor.grid().clone()), quality, editor: Some(editor) }
     }
 }

@@ -12,9 +12,9 @@
 
 use crate::laid::{Finished, Laid};
 use crate::message::Left;
+use gridshell::job::Job;
 use gridshell::error::{Error, Result};
 use gridshell::io::{self, Document, GridFile, Reference};
-use gridshell::job::Job;
 use gridshell::structure::Structure;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -132,7 +132,7 @@ fn write_all(folder: &Path, waiting: &Receiver<Wish>, log: &crate::Log) {
 
 /// Write a grid, after the file of the surface that it lies on.
 fn write(folder: &Path, laid: &Laid) -> Result<()> {
-    let Finished { mut document, schedule, .. } = laid.finished()?;
+    let Finished { mut document, schedule, .. } = laid.finished();
     let mut folder = folder.to_owned();
     if let (Some(Reference::File { path, fnv1a, .. }), Some(bytes)) =
         (&mut document.surface, &laid.opened.file)
@@ -148,8 +148,7 @@ fn write(folder: &Path, laid: &Laid) -> Result<()> {
     }
     let structure = Structure::default();
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
-    io::write(&folder.join(format!("{}.gridshell", laid.number)), &file, &Job::default())
-        .map(|_| ())
+    io::write(&folder.join(format!("{}.gridshell", laid.number)), &file, &Job::default()).map(|_| ())
 }
 
 fn remove(folder: &Path, number: u32) -> std::io::Result<()> {
@@ -198,9 +197,7 @@ impl Ended {
         let numbered = grids(&folder).ok()?;
         let time = |p: &PathBuf| fs::metadata(p).and_then(|m| m.modified()).ok();
         let when = numbered.iter().filter_map(|n| time(&n.1)).max();
-        let read = |(_, path): (u32, PathBuf)| {
-            Some((path.clone(), io::read_document(&path, &Job::default()).ok()?))
-        };
+        let read = |(_, path): (u32, PathBuf)| Some((path.clone(), io::read_document(&path, &Job::default()).ok()?));
         let empty = numbered.is_empty();
         let grids: Vec<_> = numbered.into_iter().filter_map(read).collect();
         let ended = Ended { grids, folder, when: when.unwrap_or(UNIX_EPOCH), lock };
@@ -256,9 +253,7 @@ mod tests {
             &grid,
             &surface,
             &gridshell::schedule::Tolerances::default(),
-            &Job::default(),
-        )
-        .unwrap();
+        );
         let structure = Structure::default();
         let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
         io::write(&folder.join("3.gridshell"), &file, &Job::default()).unwrap();

@@ -80,7 +80,7 @@ impl Desk {
             self.tell(event);
         }
         drop(state);
-        self.keep(Laid::of_file(number, read, opened)?);
+        self.keep(Laid::of_file(number, read, opened));
         Ok(number)
     }
 

@@ -78,14 +78,7 @@ fn assert_sound(editor: &Editor, euler: i64) {
     editor.grid.mesh.check().expect("a manifold");
     assert_eq!(editor.grid.mesh.euler_characteristic(), euler);
     let grid = editor.finished();
-    let quality = measure(
-        &grid,
-        &editor.surface,
-        editor.edge_length,
-        &editor.recipe.measure,
-        &Job::default(),
-    )
-    .unwrap();
+    let quality = measure(&grid, &editor.surface, editor.edge_length, &editor.recipe.measure);
     assert_eq!(quality.folded_panels, 0);
     assert!(quality.surface_deviation < 1e-9, "{}", quality.surface_deviation);
     assert!(quality.boundary_deviation < 1e-9, "{}", quality.boundary_deviation);

@@ -99,6 +99,9 @@ pub(super) fn encode(document: &Document, job: &Job) -> Vec<u8> {
     entry(&mut out, "anchors", &document.anchors);
     entry(&mut out, "supports", &document.supports);
     list(&mut out, "edits", &document.edits, job);
+    if document.invalid.is_some() {
+        entry(&mut out, "invalid", &document.invalid);
+    }
     out.push_str("\n}\n");
     out.into_bytes()
 }

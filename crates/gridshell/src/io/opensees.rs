@@ -23,10 +23,14 @@ pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     let mut out = format!("# {}\n", grid.headline());
     let _ = writeln!(out, "# N, m. Section {}, material {}.", section.name, material.name);
     out.push_str("wipe\nmodel BasicBuilder -ndm 3 -ndf 6\n");
-    for (v, p) in nodes.xyz.iter().enumerate().take_while(|_| !job.is_over(WRITING)) {
+    let joints = grid.joints();
+    let own = |v: &u32| joints[*v as usize] == *v;
+    let nodes_of = nodes.xyz.iter().enumerate().filter(|(v, _)| own(&(*v as u32)));
+    for (v, p) in nodes_of.take_while(|_| !job.is_over(WRITING)) {
         let _ = writeln!(out, "node {} {} {} {}", v + 1, p.x, p.y, p.z);
     }
-    for v in &grid.document.supports {
+    let supported = grid.held(&joints);
+    for v in (0..supported.len()).filter(|&v| supported[v]) {
         let _ = writeln!(out, "fix {} 1 1 1 0 0 0", v + 1);
     }
     for (k, [a, b]) in members.ends.iter().enumerate().take_while(|_| !job.is_over(WRITING)) {
@@ -35,8 +39,8 @@ pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
         let _ = writeln!(
             out,
             "element elasticBeamColumn {tag} {} {} {area} {youngs} {shear} {torsion} {iy} {iz} {tag}",
-            a + 1,
-            b + 1
+            joints[*a as usize] + 1,
+            joints[*b as usize] + 1
         );
     }
     out.push_str("timeSeries Linear 1\npattern Plain 1 1 {\n");

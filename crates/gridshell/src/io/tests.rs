@@ -11,6 +11,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
+mod odd;
+
 /// A file of this name that is removed at the end of the test.
 struct Scratch(PathBuf);
 
@@ -46,8 +48,7 @@ struct Made {
 impl Made {
     fn new(xyz: &[DVec3], panels: &[[u32; 3]]) -> Made {
         let (grid, surface) = Grid::alone("made", xyz.to_vec(), panels).expect("a manifold");
-        let schedule =
-            Schedule::new(&grid, &surface, &Tolerances::default(), &Job::default()).unwrap();
+        let schedule = Schedule::new(&grid, &surface, &Tolerances::default());
         let supports = Supports::Boundary.nodes(&grid, &surface).expect("a boundary");
         let document =
             Document { seed: Some(1), supports, ..Document::of_grid("made, seed 1", &grid) };

@@ -17,5 +17,6 @@ mod stopping;
 mod symmetry;
 mod threads;
 mod topology;
+mod valid;
 mod watching;
 mod wishes;

@@ -9,7 +9,7 @@ use gridshell::job::Job;
 use gridshell::pipeline;
 use gridshell::recipe::{Recipe, Symmetry};
 use gridshell::schedule::{Schedule, Tolerances};
-use gridshell::stages::measure::measure;
+use gridshell::stages::measure::measure_within;
 use gridshell::structure::Structure;
 use gridshell::surface::{Model, Sampling, sew};
 use std::collections::BTreeMap;
@@ -172,8 +172,8 @@ fn measuring_and_writing_stop_anywhere_and_leave_no_part_of_a_file() {
     let run = pipeline::generate(&model, &recipe, &Job::default()).unwrap();
     let (surface, length) = pipeline::surface(&model, &recipe, &Job::default()).unwrap();
     stop_everywhere("measuring", |job| {
-        measure(&run.grid, &surface, length, &recipe.measure, job)?;
-        Schedule::new(&run.grid, &surface, &Tolerances::default(), job)
+        measure_within(&run.grid, &surface, length, &recipe.measure, job)?;
+        Schedule::within(&run.grid, &surface, &Tolerances::default(), job)
     });
     let document = Document::of_grid("saddle", &run.grid);
     let structure = Structure::default();

@@ -8,7 +8,6 @@
 //! all work is counted, so a file that is wrong ends in an error, not in a hang.
 
 mod arc;
-mod bezier;
 mod curves;
 mod directory;
 mod global;
@@ -21,6 +20,7 @@ mod surfaces;
 mod tokens;
 mod trimmed;
 
+use super::bezier;
 use crate::error::{Error, Result};
 use crate::io::READING;
 use crate::job::Job;

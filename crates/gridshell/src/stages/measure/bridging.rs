@@ -16,14 +16,14 @@ use std::collections::BTreeSet;
 /// The walk has arrived when it ends within this share of l0.
 const ARRIVED: f64 = 0.1;
 
-/// Number of members whose ends are further apart along the surface than straight by more than
-/// `edge_length`.
+/// Number of [`members`].
 pub fn count(grid: &Grid, surface: &Surface, edge_length: f64) -> usize {
-    count_with(grid, surface, edge_length, &Job::default())
+    members(grid, surface, edge_length, &Job::default()).len()
 }
 
-/// The same; too few where the job is over, which the caller is to check.
-pub(super) fn count_with(grid: &Grid, surface: &Surface, edge_length: f64, job: &Job) -> usize {
+/// The members whose ends are further apart along the surface than straight by more than `edge_length`; too few where
+/// the job is over, which the caller is to check.
+pub fn members(grid: &Grid, surface: &Surface, edge_length: f64, job: &Job) -> Vec<(u32, u32)> {
     let points: Vec<_> = grid.places.iter().map(|p| p.surface_point(surface)).collect();
     let bridges = |a: u32, b: u32| {
         let edge_length = edge_length * grid.scale(surface, a, b);
@@ -31,7 +31,8 @@ pub(super) fn count_with(grid: &Grid, surface: &Surface, edge_length: f64, job: 
         !walk_arrives(surface, a, b, edge_length) && !flood_arrives(surface, a, b, edge_length)
     };
     let edges: Vec<(u32, u32)> = grid.mesh.edges().collect();
-    edges.par_iter().filter(|&&(a, b)| !job.is_over(PHASE) && bridges(a, b)).count()
+    let bridges = |&(a, b): &(u32, u32)| !job.is_over(PHASE) && bridges(a, b);
+    edges.into_par_iter().filter(bridges).collect()
 }
 
 /// Walk below the quarter points of the chord.
