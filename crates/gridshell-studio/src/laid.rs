@@ -3,11 +3,11 @@
 use crate::editing;
 use crate::message::RunSummary;
 use crate::opened::Opened;
-use gridshell::job::Job;
 use gridshell::edit::Editor;
 use gridshell::error::Result;
 use gridshell::grid::Grid;
 use gridshell::io::{Document, Reference};
+use gridshell::job::Job;
 use gridshell::recipe::Recipe;
 use gridshell::reopen;
 use gridshell::run::Run;
