@@ -4,12 +4,14 @@ use crate::Outcome;
 use crate::args::Draw;
 use crate::failure::Failure;
 use crate::picture::sheet::Wish;
+use crate::progress::Work;
 use crate::subject::Measured;
 use crate::{handover, open, picture, say};
 
-pub fn run(args: &Draw) -> Result<Outcome, Failure> {
+pub fn run(args: &Draw, work: &Work) -> Result<Outcome, Failure> {
+    let job = &work.job;
     args.output.iter().try_for_each(|file| picture::check(file))?;
-    let measured = Measured::new(open::open(&args.grid)?);
+    let measured = Measured::new(open::open(&args.grid, job)?, job)?;
     let wish =
         Wish { sheet: args.view, paper: args.paper, coloring: args.color, labels: &args.labels };
     let (mut wrote, mut drawn) = (Vec::new(), Vec::new());
@@ -20,6 +22,7 @@ pub fn run(args: &Draw) -> Result<Outcome, Failure> {
         }
         drawn.push(done);
     }
+    work.told();
     handover::all_or_told(&wrote, drawn)?;
     say::result(&(wrote.join("\n") + "\n"))?;
     Ok(Outcome::Done)

@@ -3,9 +3,12 @@
 use crate::Outcome;
 use crate::args::Edit;
 use crate::failure::Failure;
+use crate::progress::Work;
 use crate::{handover, recipe, say};
+use gridshell::Error;
 use gridshell::edit::{Editor, Figures, Log};
 use gridshell::io::{self, GridFile};
+use gridshell::job::Job;
 use gridshell::reopen::{self, Opened};
 use gridshell::schedule::{Schedule, Tolerances};
 use gridshell::validity::Fault;
@@ -36,14 +39,15 @@ struct Step {
     after: Figures,
 }
 
-pub fn run(args: &Edit) -> Result<Outcome, Failure> {
+pub fn run(args: &Edit, work: &Work) -> Result<Outcome, Failure> {
+    let job = &work.job;
     args.output.iter().try_for_each(|path| handover::check_output(path))?;
     let structure = handover::structure(&args.handover)?;
-    let supports = handover::supports(&args.handover)?;
-    let log = args.log.as_deref().map(read_log).transpose()?;
+    let supports = handover::supports(&args.handover, job)?;
+    let log = args.log.as_deref().map(|path| read_log(path, job)).transpose()?;
     let opening = args.reading.opening();
     let mut opened =
-        reopen::open(&args.grid, args.surface.as_deref(), &opening, args.following.follow())
+        reopen::open(&args.grid, args.surface.as_deref(), &opening, args.following.follow(), job)
             .map_err(Failure::of_input)?;
     recipe::tolerances(&mut opened.recipe, &args.alike);
     say::reading("", &opened.losses, &opened.notes);
@@ -53,16 +57,21 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
     let before = editor.figures();
     let faults = editor.validity(&editor.finished()).faults;
     if let (Some(log), Some(path)) = (log, &args.log) {
-        editor.replay(&log).map_err(|e| Failure::input(path, e))?;
+        editor.replay(&log, job).map_err(|e| match e {
+            Error::Stopped { .. } => Failure::from(e),
+            e => Failure::input(path, e),
+        })?;
     }
     let steps = |edits: Vec<(gridshell::edit::Edit, Figures)>| -> Vec<Step> {
         edits.into_iter().map(|(edit, after)| Step { edit, after }).collect()
     };
     let edits = steps(editor.history().map(|(e, f)| (e.clone(), f.after)).collect());
     let suggested =
-        steps(editor.suggest(args.suggest).into_iter().map(|(e, f)| (e, f.after)).collect());
+        steps(editor.suggest(args.suggest, job).into_iter().map(|(e, f)| (e, f.after)).collect());
+    // What was done is there: what remains is to write it.
+    let job = &job.after();
     let grid = editor.finished();
-    let schedule = Schedule::new(&grid, editor.surface(), &tolerances);
+    let schedule = Schedule::within(&grid, editor.surface(), &tolerances, job)?;
     let mut document = reopen::edited(&document, &editor);
     if let Some(supports) = supports {
         document.supports = supports.nodes(&grid, editor.surface())?;
@@ -81,10 +90,11 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
         )));
     }
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
-    let (wrote, written) = handover::write_all(&args.output, &file);
+    let (wrote, written) = handover::write_all(&args.output, &file, job);
     handover::all_or_told(&wrote, [written])?;
     let wrote = wrote.join("\n");
     let (schema, version) = ("gridshell.edit/1", env!("CARGO_PKG_VERSION"));
+    work.told();
     if args.json {
         say::json(&Document { schema, version, before, edits, suggested })?;
         wrote.lines().for_each(say::note);
@@ -94,7 +104,7 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
     for n in &look.warnings() {
         say::note(&format!("note: {n}"));
     }
-    Ok(Outcome::Done)
+    Ok(if work.job.stopped() { Outcome::Stopped } else { Outcome::Done })
 }
 
 /// Whether the grid did not have this fault before it was edited.
@@ -102,8 +112,8 @@ fn is_new(fault: &Fault, before: &[Fault]) -> bool {
     !before.iter().any(|f| f.kind == fault.kind && f.at == fault.at)
 }
 
-fn read_log(path: &Path) -> Result<Log, Failure> {
-    let text = io::read_text(path, LARGEST_LOG)?;
+fn read_log(path: &Path, job: &Job) -> Result<Log, Failure> {
+    let text = io::read_text(path, LARGEST_LOG, job)?;
     Log::from_json(&text).map_err(|e| Failure::input(path, e))
 }
 

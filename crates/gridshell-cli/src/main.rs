@@ -27,6 +27,7 @@ mod threads;
 use args::{Args, Command};
 use clap::Parser;
 use failure::Failure;
+use progress::Work;
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
@@ -50,7 +51,15 @@ fn main() -> ExitCode {
         Command::Generate(args) => args.threads,
         _ => None,
     };
-    let result = threads::start(asked).and_then(|()| run(&args.command));
+    let limits = &args.limits;
+    let work = match &args.command {
+        #[cfg(feature = "studio")]
+        // Its runs have jobs of their own; an interrupt ends it.
+        Command::Studio(_) => Work::new(limits),
+        _ => Work::interruptible(limits),
+    };
+    let result = threads::start(asked).and_then(|()| run(&args, &work));
+    work.told();
     match result {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Partial) => ExitCode::from(failure::PARTIAL),
@@ -62,17 +71,18 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(command: &Command) -> Result<Outcome, Failure> {
-    match command {
-        Command::Generate(args) => generate::run(args),
-        Command::Measure(args) => measure::run(args),
-        Command::Edit(args) => edit::run(args),
-        Command::Convert(args) => convert::run(args),
-        Command::Draw(args) => draw::run(args),
-        Command::Compare(args) => compare::run(args),
-        Command::Inspect(args) => inspect::run(args),
+fn run(args: &Args, work: &Work) -> Result<Outcome, Failure> {
+    let limits = &args.limits;
+    match &args.command {
+        Command::Generate(args) => generate::run(args, work),
+        Command::Measure(args) => measure::run(args, work),
+        Command::Edit(args) => edit::run(args, work),
+        Command::Convert(args) => convert::run(args, work),
+        Command::Draw(args) => draw::run(args, work),
+        Command::Compare(args) => compare::run(args, work),
+        Command::Inspect(args) => inspect::run(args, work),
         #[cfg(feature = "studio")]
-        Command::Studio(args) => studio::run(args),
+        Command::Studio(args) => studio::run(args, limits),
         Command::Surfaces => surfaces::run(),
     }
 }

@@ -3,13 +3,14 @@
 use crate::args::GridArgs;
 use crate::failure::Failure;
 use crate::{recipe, say};
+use gridshell::job::Job;
 use gridshell::reopen::{self, Opened};
 
 /// The grid on its surface, with the tolerances that are given. What is to be known of its reading is told.
-pub fn open(args: &GridArgs) -> Result<Opened, Failure> {
+pub fn open(args: &GridArgs, job: &Job) -> Result<Opened, Failure> {
     let opening = args.reading.opening();
     let opened =
-        reopen::open(&args.grid, args.surface.as_deref(), &opening, args.following.follow());
+        reopen::open(&args.grid, args.surface.as_deref(), &opening, args.following.follow(), job);
     let mut opened = opened.map_err(Failure::of_input)?;
     say::reading("", &opened.losses, &opened.notes);
     recipe::tolerances(&mut opened.recipe, &args.alike);

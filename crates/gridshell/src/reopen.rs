@@ -4,6 +4,7 @@ use crate::edit::Editor;
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
 use crate::io::{self, Document, Follow, Opening};
+use crate::job::Job;
 use crate::mesh::Mesh;
 use crate::pipeline;
 use crate::recipe::Recipe;
@@ -47,20 +48,21 @@ pub fn open(
     surface: Option<&str>,
     opening: &Opening,
     follow: Follow,
+    job: &Job,
 ) -> Result<Opened> {
     match path.extension() {
         Some(e) if e.eq_ignore_ascii_case("gridshell") => {
-            open_document(path, surface, opening, follow)
+            open_document(path, surface, opening, follow, job)
         }
-        _ if io::reads_mesh(path) => open_mesh(path, surface, opening),
+        _ if io::reads_mesh(path) => open_mesh(path, surface, opening, job),
         _ => Err(io::unknown(path, &format!("gridshell, {}", io::MESH_FORMATS))),
     }
 }
 
-fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
+fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening, job: &Job) -> Result<Opened> {
     // Where both are given, the unit is the surface's: our grids state their own.
     let of_grid = if surface.is_some() { Opening::default() } else { opening.clone() };
-    let mesh = io::read_mesh_with(path, &of_grid)?;
+    let mesh = io::read_mesh_with(path, &of_grid, job)?;
     let PolygonMesh { name, mut points, faces, mut notes, source, origin, .. } = mesh;
     let mut losses = source.told_losses();
     for p in &mut points {
@@ -75,14 +77,14 @@ fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Op
             (grid, surface, None, None)
         }
         Some(wanted) => {
-            let model = io::open_with(wanted, opening)?;
-            let surface = sample(&model, edge_length, &recipe)?;
+            let model = io::open_with(wanted, opening, job)?;
+            let surface = sample(&model, edge_length, &recipe, job)?;
             let xyz = points.iter().map(|&p| surface.origin.local(p)).collect();
             let grid = Grid::from_panels(xyz, &panels, &surface)?;
             let summary = SurfaceSummary::new(&model, &surface);
             notes.extend_from_slice(model.notes());
             losses.extend(model.source().told_losses());
-            (grid, surface, Some(summary), Some(io::reference(wanted, opening)?))
+            (grid, surface, Some(summary), Some(io::reference(wanted, opening, job)?))
         }
     };
     let supports = Supports::Boundary.nodes(&grid, &surface)?;
@@ -99,16 +101,18 @@ fn open_document(
     surface: Option<&str>,
     opening: &Opening,
     follow: Follow,
+    job: &Job,
 ) -> Result<Opened> {
-    let mut document = io::read_document(path)?;
+    let mut document = io::read_document(path, job)?;
     let mut notes = Vec::new();
     let model = match (surface, &document.surface) {
         (Some(wanted), _) => {
-            document.surface = Some(io::reference(wanted, opening)?);
-            Some(io::open_with(wanted, opening)?)
+            document.surface = Some(io::reference(wanted, opening, job)?);
+            Some(io::open_with(wanted, opening, job)?)
         }
-        (None, Some(reference)) => match io::open_reference(reference, path, follow) {
+        (None, Some(reference)) => match io::open_reference(reference, path, follow, job) {
             Ok(model) => Some(model),
+            Err(e @ (Error::Stopped { .. } | Error::Memory(_))) => return Err(e),
             Err(e) => {
                 notes.push(format!("{e}; the grid is taken for its own surface"));
                 None
@@ -116,7 +120,7 @@ fn open_document(
         },
         (None, None) => None,
     };
-    let opened = restore(document, model.as_ref())?;
+    let opened = restore(document, model.as_ref(), job)?;
     notes.extend(opened.notes);
     Ok(Opened { notes, ..opened })
 }
@@ -125,7 +129,7 @@ fn open_document(
 ///
 /// # Errors
 /// [`Error::Surface`] where the panels are no manifold or the surface cannot carry them.
-pub fn restore(document: Document, model: Option<&Model>) -> Result<Opened> {
+pub fn restore(document: Document, model: Option<&Model>, job: &Job) -> Result<Opened> {
     let xyz: Vec<DVec3> = document.nodes.iter().map(|&p| p.into()).collect();
     let recipe = document.recipe.clone().unwrap_or_default();
     let edge_length = document.edge_length.unwrap_or_else(|| mean_side(&xyz, &document.panels));
@@ -137,12 +141,12 @@ pub fn restore(document: Document, model: Option<&Model>) -> Result<Opened> {
         return Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes, losses });
     };
     let model = match &document.recipe {
-        Some(recipe) => &*pipeline::smoothed(model, recipe)?,
+        Some(recipe) => &*pipeline::smoothed(model, recipe, job)?,
         None => model,
     };
     let surface = match &document.recipe {
-        Some(recipe) => pipeline::surface(model, recipe)?.0,
-        None => sample(model, edge_length, &recipe)?,
+        Some(recipe) => pipeline::surface(model, recipe, job)?.0,
+        None => sample(model, edge_length, &recipe, job)?,
     };
     let summary = Some(SurfaceSummary::new(model, &surface));
     let xyz: Vec<DVec3> = xyz.into_iter().map(|p| surface.origin.local(p)).collect();
@@ -247,13 +251,12 @@ pub fn edited(document: &Document, editor: &Editor) -> Document {
 }
 
 /// Sampled as finely as for generating a grid of this edge length.
-fn sample(model: &Model, edge_length: f64, recipe: &Recipe) -> Result<Surface> {
+fn sample(model: &Model, edge_length: f64, recipe: &Recipe, job: &Job) -> Result<Surface> {
     let corner_angle = recipe.corner_angle_deg.to_radians();
-    model.surface(&Sampling {
-        max_edge: edge_length / 2.0,
-        chord_error: edge_length * 2e-3,
-        corner_angle,
-    })
+    model.surface(
+        &Sampling { max_edge: edge_length / 2.0, chord_error: edge_length * 2e-3, corner_angle },
+        job,
+    )
 }
 
 /// The faces as panels, if all are triangles.

@@ -3,7 +3,9 @@
 //! A device, a pipe or a file that grows while it is read ends in words, never in memory that runs out or in a
 //! process that waits for ever.
 
+use super::READING;
 use crate::error::{Error, Result};
+use crate::job::{Job, Picture};
 use std::fs::{self, File, Metadata};
 use std::io::Read;
 use std::path::Path;
@@ -15,19 +17,22 @@ const MAX_BYTES: u64 = 1 << 30;
 ///
 /// # Errors
 /// [`Error::Io`] from the system, [`Error::Parse`] for what is no regular file, or is larger.
-pub fn read(path: &Path) -> Result<Vec<u8>> {
-    read_at_most(path, MAX_BYTES)
+pub fn read(path: &Path, job: &Job) -> Result<Vec<u8>> {
+    read_at_most(path, MAX_BYTES, job)
 }
 
 /// The contents of a file of at most `most` bytes.
 ///
 /// # Errors
 /// As [`read`].
-pub fn read_at_most(path: &Path, most: u64) -> Result<Vec<u8>> {
+pub fn read_at_most(path: &Path, most: u64, job: &Job) -> Result<Vec<u8>> {
+    job.check(READING)?;
+    job.progress("read", 0.0, Picture::None);
     let size = length(path)?;
     if size > most {
         return Err(too_large(path, most));
     }
+    job.reserve(2.0 * size as f64, &format!("reading {}", path.display()))?;
     let io = |source| Error::Io { path: path.to_owned(), source };
     let file = File::open(path).map_err(io)?;
     // It may have become another one meanwhile.
@@ -44,8 +49,8 @@ pub fn read_at_most(path: &Path, most: u64) -> Result<Vec<u8>> {
 ///
 /// # Errors
 /// As [`read`]; [`Error::Parse`] where it is no UTF-8.
-pub fn read_text(path: &Path, most: u64) -> Result<String> {
-    String::from_utf8(read_at_most(path, most)?).map_err(|e| {
+pub fn read_text(path: &Path, most: u64, job: &Job) -> Result<String> {
+    String::from_utf8(read_at_most(path, most, job)?).map_err(|e| {
         let text = &e.as_bytes()[..e.utf8_error().valid_up_to()];
         let line = text.split(|&b| b == b'\n').count();
         refusal(
@@ -106,9 +111,9 @@ mod tests {
     fn a_file_is_read_up_to_its_limit_and_refused_beyond() {
         let file = std::env::temp_dir().join(format!("gridshell-{}-limit", std::process::id()));
         fs::write(&file, b"v 0 0\xff").expect("room");
-        assert_eq!(read_at_most(&file, 6).expect("it fits"), b"v 0 0\xff");
-        assert!(read_at_most(&file, 5).unwrap_err().to_string().contains("limit of 5 bytes"));
-        assert!(read_text(&file, 6).unwrap_err().to_string().contains("line 1: this is no text"));
+        assert_eq!(read_at_most(&file, 6, &Job::default()).expect("it fits"), b"v 0 0\xff");
+        assert!(read_at_most(&file, 5, &Job::default()).unwrap_err().to_string().contains("limit of 5 bytes"));
+        assert!(read_text(&file, 6, &Job::default()).unwrap_err().to_string().contains("line 1: this is no text"));
         fs::remove_file(&file).expect("it was just made");
     }
 
@@ -119,7 +124,7 @@ mod tests {
             special.extend(["/dev/zero", "/dev/null"].map(Into::into));
         }
         for path in special {
-            assert!(matches!(read(&path), Err(Error::Parse { .. })), "{}", path.display());
+            assert!(matches!(read(&path, &Job::default()), Err(Error::Parse { .. })), "{}", path.display());
         }
     }
 }

@@ -3,6 +3,7 @@
 
 use super::{Opening, digest, file, load, open};
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::surface::{Model, builtin};
 use serde::{Deserialize, Serialize};
 use std::path::{Component, Path, PathBuf, absolute};
@@ -35,11 +36,11 @@ fn is_usual(opening: &Opening) -> bool {
 ///
 /// # Errors
 /// What reading the file gives.
-pub fn reference(name_or_path: &str, opening: &Opening) -> Result<Reference> {
+pub fn reference(name_or_path: &str, opening: &Opening, job: &Job) -> Result<Reference> {
     if builtin::model(name_or_path).is_some() {
         return Ok(Reference::Builtin(name_or_path.to_owned()));
     }
-    let bytes = file::read(Path::new(name_or_path))?;
+    let bytes = file::read(Path::new(name_or_path), job)?;
     Ok(Reference::File {
         path: name_or_path.to_owned(),
         bytes: bytes.len() as u64,
@@ -62,12 +63,12 @@ pub enum Follow {
 ///
 /// # Errors
 /// As [`open`] and [`find_reference`].
-pub fn open_reference(reference: &Reference, beside: &Path, follow: Follow) -> Result<Model> {
+pub fn open_reference(reference: &Reference, beside: &Path, follow: Follow, job: &Job) -> Result<Model> {
     match reference {
-        Reference::Builtin(name) => open(name),
+        Reference::Builtin(name) => open(name, job),
         Reference::File { path, opening, .. } => {
-            let found = find_reference(reference, beside, follow)?;
-            load(&found.unwrap_or_else(|| path.into()), opening)
+            let found = find_reference(reference, beside, follow, job)?;
+            load(&found.unwrap_or_else(|| path.into()), opening, job)
         }
     }
 }
@@ -81,6 +82,7 @@ pub fn find_reference(
     reference: &Reference,
     beside: &Path,
     follow: Follow,
+    job: &Job,
 ) -> Result<Option<PathBuf>> {
     let Reference::File { path: told, bytes, fnv1a, .. } = reference else { return Ok(None) };
     let folder = beside.with_file_name("");
@@ -101,7 +103,7 @@ pub fn find_reference(
     };
     // The length says first whether reading it is worth while.
     let same = file::length(&path)? == *bytes && {
-        let now = file::read(&path)?;
+        let now = file::read(&path, job)?;
         format!("{:016x}", digest::fnv1a_64(&now)) == *fnv1a
     };
     if same {
@@ -160,7 +162,7 @@ mod tests {
             std::fs::write(at(name), name).expect("room");
         }
         let find = |told: &str, name: &str, follow| {
-            find_reference(&referring(told, name.as_bytes()), &at("grids/a.gridshell"), follow)
+            find_reference(&referring(told, name.as_bytes()), &at("grids/a.gridshell"), follow, &Job::default())
         };
         let whole = at("grids/roof.obj").display().to_string();
         let secret = at("secret.obj").display().to_string();
@@ -192,7 +194,7 @@ mod tests {
         for contents in ["v 0 0 0 0", "v 0 0 1", ""] {
             let reference = referring("roof.obj", contents.as_bytes());
             let beside = root.path().join("a.gridshell");
-            let error = find_reference(&reference, &beside, Follow::Near).expect_err(contents);
+            let error = find_reference(&reference, &beside, Follow::Near, &Job::default()).expect_err(contents);
             assert!(error.to_string().contains("has changed"), "{error}");
         }
     }

@@ -2,6 +2,7 @@
 
 use super::rough;
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::recipe::Recipe;
 use crate::surface::Model;
 
@@ -9,12 +10,13 @@ use crate::surface::Model;
 ///
 /// # Errors
 /// [`Error::Surface`] naming what is missing, why, and how to get it or go on without it.
-pub fn check_whole(model: &Model, recipe: &Recipe) -> Result<()> {
+pub fn check_whole(model: &Model, recipe: &Recipe, job: &Job) -> Result<()> {
     let source = model.source();
     if recipe.accept_losses || source.losses.is_empty() {
         return Ok(());
     }
-    let area = area(model, recipe);
+    let area = area(model, recipe, job);
+    job.check("preparing the surface")?;
     if !source.is_incomplete(area) {
         return Ok(());
     }
@@ -27,10 +29,10 @@ pub fn check_whole(model: &Model, recipe: &Recipe) -> Result<()> {
 }
 
 /// Area of all parts that are surfaces, square metres.
-fn area(model: &Model, recipe: &Recipe) -> f64 {
+fn area(model: &Model, recipe: &Recipe, job: &Job) -> f64 {
     let of = |faces: &Vec<u32>| {
         let part = model.of_faces(faces);
-        part.surface(&rough(part.size(), recipe)).map_or(0.0, |surface| surface.area)
+        part.surface(&rough(part.size(), recipe), job).map_or(0.0, |surface| surface.area)
     };
     model.parts().iter().map(of).sum()
 }

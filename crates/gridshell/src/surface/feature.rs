@@ -12,6 +12,7 @@ use super::thin::thinned;
 use super::track::Track;
 use super::{Chain, Surface, SurfacePoint, carrier::NONE};
 use crate::error::Result;
+use crate::job::{Job, Picture};
 use crate::math::trig;
 use glam::DVec3;
 use rstar::RTree;
@@ -48,7 +49,7 @@ impl Surface {
     /// # Errors
     /// [`Error::Surface`](crate::Error::Surface) with coordinates where a guide leaves the surface or is
     /// shorter than a member, or an anchor lies off the surface by more than one.
-    pub fn fix(&mut self, wanted: &Fixtures) -> Result<Vec<String>> {
+    pub fn fix(&mut self, wanted: &Fixtures, job: &Job) -> Result<Vec<String>> {
         let mut notes = Vec::new();
         if let Some(angle) = wanted.crease_angle {
             self.mark_creases(angle);
@@ -60,6 +61,8 @@ impl Surface {
             let origin = self.origin;
             let mut cutter = Cutter::new(self, wanted.edge_length);
             for (i, guide) in wanted.guides.iter().enumerate() {
+                job.check("fixing guides")?;
+                job.progress("fix", i as f64 / wanted.guides.len() as f64, Picture::None);
                 let (points, noise) = thinned(guide, wanted.edge_length);
                 if noise {
                     let (n, m) = (guide.len(), points.len());
@@ -83,6 +86,8 @@ impl Surface {
             // An anchor given many times is one.
             let mut known = BTreeSet::new();
             for (i, &anchor) in wanted.anchors.iter().enumerate() {
+                job.check("fixing anchors")?;
+                job.progress("fix", i as f64 / wanted.anchors.len() as f64, Picture::None);
                 if known.insert(anchor.to_array().map(f64::to_bits)) {
                     let (vertex, note) = cutter.put_anchor(i, anchor)?;
                     anchors.push(vertex);

@@ -22,6 +22,8 @@ mod trimmed;
 
 use super::{bezier, file};
 use crate::error::{Error, Result};
+use crate::io::READING;
+use crate::job::Job;
 use crate::surface::brep::Brep;
 use crate::surface::{Loss, Source, Unit};
 use directory::{Directory, Entry};
@@ -130,10 +132,10 @@ impl File<'_> {
 /// # Errors
 /// [`Error::Io`] where the file cannot be opened, [`Error::Parse`] with line or entity where it is no IGES file, too
 /// large, cut off, or holds no face that can be used.
-pub fn read(path: &Path) -> Result<Brep> {
+pub fn read(path: &Path, job: &Job) -> Result<Brep> {
     let fault =
         |f: Fault| Error::Parse { path: path.to_path_buf(), place: f.place, message: f.what };
-    let mut brep = parse(&file::read_at_most(path, MOST_BYTES)?).map_err(fault)?;
+    let mut brep = parse(&file::read_at_most(path, MOST_BYTES, job)?).map_err(fault)?;
     path.file_stem().and_then(|s| s.to_str()).unwrap_or("surface").clone_into(&mut brep.name);
     Ok(brep)
 }

@@ -27,6 +27,7 @@ mod units;
 use super::soup::Soup;
 use super::{Opening, file, weld};
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::surface::{Brep, Model, PolygonMesh, Source, Unit};
 use reading::Reading;
 use std::path::Path;
@@ -48,13 +49,13 @@ enum Found {
 /// # Errors
 /// [`Error::Io`] where the file cannot be opened, [`Error::Parse`] where it is no STEP file, too large, or
 /// holds no face that can be used; [`Error::Surface`] where it holds triangles only, and they are no surface.
-pub fn read(path: &Path) -> Result<Model> {
-    let bytes = file::read_at_most(path, MOST_BYTES)?;
+pub fn read(path: &Path, job: &Job) -> Result<Model> {
+    let bytes = file::read_at_most(path, MOST_BYTES, job)?;
     let name = path.file_stem().and_then(|s| s.to_str()).unwrap_or("surface").to_owned();
     match parse(bytes).map_err(|(place, what)| fault(path, &place, &what))? {
         Found::Faces(brep) => Ok(Model::Brep(Brep { name, ..brep })),
         Found::Triangles(soup, source) => {
-            let mesh = weld::weld(path, soup, &Opening::default())?;
+            let mesh = weld::weld(path, soup, &Opening::default(), job)?;
             let losses = source.losses.into_iter().chain(mesh.source.losses).collect();
             Ok(Model::Mesh(PolygonMesh { source: Source { losses, ..source }, ..mesh }))
         }
