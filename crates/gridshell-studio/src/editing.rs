@@ -4,21 +4,19 @@ use crate::message::{Event, Step};
 use gridshell::edit::{Edit, Editor, Effect, Refusal};
 use gridshell::error::{Error, Result};
 use gridshell::pipeline;
-use gridshell::run::Run;
-use gridshell::surface::Model;
+use gridshell::recipe::Recipe;
+use gridshell::surface::{Model, Surface};
 use serde_json::Value;
-use std::sync::Arc;
 
 /// Suggestions made.
 const SUGGESTED: usize = 8;
 
-/// An editor for what came of a run on `model`.
+/// The surface that grids of this recipe lie on.
 ///
 /// # Errors
-/// What making the surface anew says.
-pub fn editor(model: &Model, run: &Run) -> Result<Editor> {
-    let (surface, _) = pipeline::surface(model, &run.recipe)?;
-    Ok(Editor::new(Arc::new(surface), run.grid.clone(), run.recipe.clone(), run.edge_length))
+/// What making it anew says.
+pub fn surface(model: &Model, recipe: &Recipe) -> Result<Surface> {
+    Ok(pipeline::surface(model, recipe)?.0)
 }
 
 /// The edit that the page means.
