@@ -352,3 +352,111 @@ impl Now {
 fn held<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
     lock.lock().unwrap_or_else(PoisonError::into_inner)
 }
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+    use gridshell::edit::Edit;
+    use gridshell::job::Job;
+    use gridshell::pipeline;
+
+    /// The grid of a square, as if from a file.
+    pub fn square(number: u32) -> Laid {
+        let (grid, surface) = crate::measures::tests::square();
+        let document = Document::of_grid("square", &grid);
+        let opened = Arc::new(Opened::alone(&document).unwrap());
+        let read = reopen::Opened {
+            document,
+            grid,
+            surface,
+            summary: None,
+            edge_length: 1.0,
+            recipe: Recipe::default(),
+            notes: Vec::new(),
+        };
+        Laid::of_file(number, read, opened)
+    }
+
+    /// A coarse draft on the built-in hexagon, told to be of this effort.
+    pub fn hexagon(number: u32, effort: Effort) -> Laid {
+        let opened = Opened::built_in("hexagon").unwrap();
+        let recipe = Recipe { edge_length: Some(2.0), effort: Effort::Draft, ..Recipe::default() };
+        let mut run = pipeline::generate(&opened.model, &recipe, &Job::default()).unwrap();
+        run.recipe.effort = effort;
+        Laid::of_run(number, run, Arc::new(opened), None)
+    }
+
+    /// Pin a node.
+    pub fn pin(laid: &Laid, node: u32) {
+        let pin = |editor: &mut Editor| {
+            editor.apply(Edit::Pin { node }).unwrap();
+            Ok(())
+        };
+        laid.change(pin).unwrap();
+    }
+
+    /// A middle node of the square.
+    pub const MIDDLE: u32 = 4;
+
+    #[test]
+    fn what_is_saved_is_a_version_and_not_the_grid() {
+        let laid = square(1);
+        assert!(!laid.unsaved(), "it is in the file that it came from");
+        pin(&laid, MIDDLE);
+        assert!(laid.unsaved());
+        let version = laid.finished().unwrap().version;
+        pin(&laid, MIDDLE + 1);
+        assert!(!laid.saved(version), "the grid has changed since");
+        assert!(laid.unsaved());
+        assert!(laid.saved(version + 1) && !laid.unsaved());
+        laid.change(|editor| Ok(drop(editor.undo()))).unwrap();
+        assert!(laid.unsaved(), "what is undone since then is a change as well");
+        assert!(square(2).recovered().unsaved());
+    }
+
+    #[test]
+    fn while_a_grid_is_changed_what_it_was_is_seen_weighed_and_written() {
+        let laid = square(1);
+        let before = laid.finished().unwrap();
+        laid.change(|editor| {
+            editor.apply(Edit::Pin { node: MIDDLE }).unwrap();
+            // On this very thread: whatever waited for the change would never come.
+            assert!(laid.unsaved(), "it is being changed");
+            assert_eq!(laid.finished().unwrap().document.nodes, before.document.nodes);
+            assert!(laid.log().unwrap().edits.is_empty());
+            assert!(laid.trial().unwrap().history().next().is_none());
+            assert!(!laid.summary().detail.contains("edit"));
+            Ok(())
+        })
+        .unwrap();
+        assert_eq!(laid.finished().unwrap().document.edits.len(), 1);
+        assert!(laid.summary().detail.ends_with(", 1 edit"));
+    }
+
+    /// What is written from a picture of the grid is what its editor would have written.
+    #[test]
+    fn a_grid_is_written_as_its_editor_has_it() {
+        let laid = hexagon(1, Effort::Draft);
+        let members: Vec<(u32, u32)> = {
+            let mesh = &laid.run.as_ref().unwrap().grid.mesh;
+            mesh.edges().filter(|&(a, _)| !mesh.is_boundary(a)).take(3).collect()
+        };
+        for (a, b) in members {
+            let mut told = None;
+            let split = |editor: &mut Editor| {
+                let _ = editor.apply(Edit::Split { nodes: [a, b] });
+                let _ = editor.apply(Edit::Flip { nodes: [a, b] });
+                told = Some((reopen::edited(&laid.document, editor), editor.log()));
+                Ok(())
+            };
+            laid.change(split).unwrap();
+            let (document, log) = told.unwrap();
+            let finished = laid.finished().unwrap().document;
+            assert_eq!(finished.edits, document.edits);
+            assert_eq!(finished.nodes, document.nodes);
+            assert_eq!(finished.supports, document.supports);
+            assert_eq!(finished.features, document.features);
+            assert_eq!(laid.log().unwrap(), log);
+        }
+    }
+}

@@ -28,7 +28,7 @@ const MESSAGE_LIMIT: usize = 1 << 20;
 /// Answers to one tab that wait.
 const ANSWERS: usize = 64;
 /// The body of a request has to be here after so long: even the largest file takes seconds on one machine.
-const BODY_PATIENCE: Duration = Duration::from_secs(60);
+const BODY_PATIENCE: Duration = Duration::from_secs(30);
 
 /// What a stranger is told, or a user whose address or browser is of another day.
 const REFUSED: &str = "This is not the studio's address: take the whole of it from the terminal where gridshell runs.";

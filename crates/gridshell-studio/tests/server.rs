@@ -28,6 +28,7 @@ async fn up() -> Up {
     let lines = Arc::clone(&log);
     let page = tempfile::tempdir().unwrap();
     std::fs::write(page.path().join("index.html"), "the page").unwrap();
+    std::fs::write(page.path().join("main.js"), "the script").unwrap();
     let options = Options {
         surface: "hexagon".into(),
         port: 0,
@@ -139,6 +140,175 @@ async fn strangers_are_refused_and_logged() {
     assert!(up.connect(&up.token, Some("http://other.example")).await.is_err());
     assert!(up.connect(&up.token, None).await.is_err());
     assert!(up.logged("no Origin"));
+}
+
+/// The pass that comes with the page serves for the token in every request after it, and from our own pages only.
+#[tokio::test(flavor = "multi_thread")]
+async fn after_the_first_request_a_cookie_serves_for_the_token() {
+    let up = up().await;
+    let first = up.get(&format!("/{}/", up.token), &up.host, "").await;
+    let lines = first.lines().find_map(|l| l.strip_prefix("set-cookie: "));
+    let given = lines.expect("a cookie comes with the page");
+    for word in ["HttpOnly", "SameSite=Strict", "Path=/"] {
+        assert!(given.contains(word), "{given}");
+    }
+    assert!(!given.contains(&up.token) && !given.contains("Domain"), "{given}");
+    let pass = given.split(';').next().unwrap();
+    let cookie = format!("Cookie: other=1; {pass}\r\n");
+    for (path, said) in [("/", "the page"), ("/main.js", "the script")] {
+        let answer = up.get(path, &up.host, &cookie).await;
+        assert_eq!(status(&answer), "200", "{path}");
+        assert!(answer.ends_with(said) && !answer.contains("set-cookie"), "{answer}");
+        assert_eq!(status(&up.get(path, &up.host, "").await), "403", "{path} without it");
+    }
+    for site in ["same-site", "cross-site"] {
+        let more = format!("{cookie}Sec-Fetch-Site: {site}\r\n");
+        assert_eq!(status(&up.get("/", &up.host, &more).await), "403", "{site}");
+    }
+    assert!(up.logged("another page's request"));
+    // The socket and files go by it too, if they have our Origin.
+    let origin = format!("http://{}", up.host);
+    for (origin, open) in [(Some(&*origin), true), (None, false), (Some("http://a.example"), false)]
+    {
+        let mut request = format!("ws://{}/socket", up.host).into_client_request().unwrap();
+        request.headers_mut().insert("Cookie", pass.parse().unwrap());
+        if let Some(origin) = origin {
+            request.headers_mut().insert("Origin", origin.parse().unwrap());
+        }
+        let stream = TcpStream::connect(&up.host).await.unwrap();
+        let opened = tokio_tungstenite::client_async(request, stream).await;
+        assert_eq!(opened.is_ok(), open, "{origin:?}");
+    }
+    let head = format!(
+        "POST /open?name=bad.obj HTTP/1.1\r\nHost: {0}\r\nOrigin: {origin}\r\n{cookie}Content-Length: 4\r\nConnection: close\r\n\r\n",
+        up.host
+    );
+    assert_eq!(status(&up.raw(&head, b"oops").await), "422");
+}
+
+/// Every answer, refusals too, says that no other site may use it.
+#[tokio::test(flavor = "multi_thread")]
+async fn all_answers_have_the_headers_that_keep_others_out() {
+    let up = up().await;
+    let token = format!("/{}", up.token);
+    for path in [
+        "/".into(),
+        format!("{token}/"),
+        format!("{token}/none"),
+        format!("{token}/export?run=9&format=obj"),
+    ] {
+        let answer = up.get(&path, &up.host, "").await.to_lowercase();
+        for header in [
+            "cross-origin-resource-policy: same-origin",
+            "cross-origin-opener-policy: same-origin",
+            "x-content-type-options: nosniff",
+            "referrer-policy: no-referrer",
+            "cache-control: no-store",
+            "content-security-policy: default-src 'none'; script-src 'self'; style-src 'self';",
+        ] {
+            assert!(answer.contains(header), "{path}: {header} in {answer}");
+        }
+        assert!(!answer.contains("unsafe-inline"), "{path}");
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn requests_that_say_two_things_are_refused() {
+    let up = up().await;
+    let (host, path) = (&up.host, format!("/{}/", up.token));
+    for (target, hosts) in [
+        (format!("http://evil.example{path}"), vec![&**host]),
+        (format!("http://{host}{path}"), vec![&**host]),
+        (path.clone(), vec![&**host, "evil.example"]),
+        (path.clone(), vec!["evil.example", &**host]),
+        (path.clone(), vec![&**host, &**host]),
+        (path.clone(), vec![]),
+    ] {
+        let hosts: String = hosts.iter().map(|h| format!("Host: {h}\r\n")).collect();
+        let head = format!("GET {target} HTTP/1.1\r\n{hosts}Connection: close\r\n\r\n");
+        let answer = up.raw(&head, b"").await;
+        assert!(["400", "403"].contains(&status(&answer)), "{head}{answer}");
+        assert!(!answer.contains("the page"));
+    }
+}
+
+/// Requests that never come to their end are given up, wherever they stop; tabs without a word are not.
+#[tokio::test(flavor = "multi_thread")]
+async fn half_requests_are_given_up() {
+    let up = up().await;
+    let mut tab = up.tab().await;
+    hear(&mut tab, &["idle"]).await;
+    let (host, path) = (&up.host, format!("/{}/", up.token));
+    let halves = [
+        String::new(),
+        "GE".into(),
+        format!("GET {path} HTTP/1.1\r\nHost: {host}\r\n"),
+        format!(
+            "POST {path}open?name=a.obj HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\nContent-Length: 100\r\n\r\nv 0"
+        ),
+    ];
+    let mut streams = Vec::new();
+    for half in &halves {
+        let mut stream = TcpStream::connect(host).await.unwrap();
+        stream.write_all(half.as_bytes()).await.unwrap();
+        streams.push(stream);
+    }
+    for (half, mut stream) in halves.iter().zip(streams) {
+        let mut answer = Vec::new();
+        let ended = tokio::time::timeout(Duration::from_secs(90), stream.read_to_end(&mut answer));
+        assert!(ended.await.is_ok(), "still open: {half:?}");
+    }
+    say(&mut tab, &json!({ "kind": "distance", "from": [0, 0, 0], "to": [3, 4, 0] })).await;
+    assert_eq!(hear(&mut tab, &["distance"]).await["straight"], 5.0);
+}
+
+/// While the threads that runs share are busy, as in a long run, everything is answered; and a pick passes suggestions.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_busy_run_holds_up_no_answers() {
+    let up = up().await;
+    let mut tab = up.tab().await;
+    hear(&mut tab, &["idle"]).await;
+    let run = generate(&up, &mut tab).await;
+    hear(&mut tab, &["idle"]).await;
+    let (begun, begins) = std::sync::mpsc::channel();
+    let ends: Vec<_> = (0..rayon::current_num_threads())
+        .map(|_| {
+            let (end, ended) = std::sync::mpsc::channel::<()>();
+            let begun = begun.clone();
+            rayon::spawn(move || {
+                let _ = begun.send(());
+                let _ = ended.recv();
+            });
+            end
+        })
+        .collect();
+    tokio::task::spawn_blocking(move || ends_begin(&begins)).await.unwrap();
+    let pick = json!({ "kind": "pick", "run": run, "question": 1, "origin": [0, 0, 9], "direction": [0, 0, -1] });
+    for (wish, answer) in [
+        (json!({ "kind": "suggest", "run": run }), "suggested"),
+        (pick, "picked"),
+        (json!({ "kind": "hover", "run": run, "nodes": [20, 21], "question": 1 }), "hovered"),
+        (json!({ "kind": "estimate", "values": {} }), "estimate"),
+        (json!({ "kind": "edit", "run": run, "edit": { "op": "relax_all" } }), "history"),
+        (json!({ "kind": "undo", "run": run }), "history"),
+        (json!({ "kind": "look", "run": run, "stage": null }), "run"),
+        (json!({ "kind": "open", "name": "dome" }), "surface"),
+    ] {
+        say(&mut tab, &wish).await;
+        hear(&mut tab, &[answer]).await;
+    }
+    for format in ["gridshell", "edits.json"] {
+        let path = format!("/{}/export?run={run}&format={format}", up.token);
+        assert_eq!(status(&up.get(&path, &up.host, "").await), "200", "{format}");
+    }
+    drop(ends);
+}
+
+/// Wait until all the shared threads are taken.
+fn ends_begin(begins: &std::sync::mpsc::Receiver<()>) {
+    for _ in 0..rayon::current_num_threads() {
+        begins.recv().unwrap();
+    }
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -163,7 +163,7 @@ impl Desk {
     }
 
     /// Change a run's grid; every tab is told. One change goes on at a time.
-    fn change(
+    pub(super) fn change(
         self: &Arc<Self>,
         run: u32,
         what: &str,

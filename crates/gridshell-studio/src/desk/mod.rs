@@ -251,3 +251,6 @@ fn runs(state: &State) -> Event {
 fn shown(opened: &Opened) -> [Outgoing; 2] {
     [Outgoing::Event(Event::Surface(opened.info.clone())), Outgoing::Frame(opened.frame.clone())]
 }
+
+#[cfg(test)]
+mod tests;

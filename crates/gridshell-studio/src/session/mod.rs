@@ -187,3 +187,6 @@ fn write(folder: &Path, laid: &Laid) -> Result<()> {
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
     io::write(&folder.join(own::grid_name(laid.number)), &file).map(|_| ())
 }
+
+#[cfg(test)]
+mod tests;
