@@ -2,7 +2,7 @@
 //! machine can see, and the address has the token in it. The file is this user's only, and sends on to the address.
 
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::PathBuf;
 use tempfile::TempDir;
 
 /// The file's name.
@@ -38,8 +38,8 @@ impl Redirect {
     }
 
     /// Where it is.
-    pub fn path(&self) -> std::path::PathBuf {
-        Path::join(self.folder.path(), NAME)
+    pub fn path(&self) -> PathBuf {
+        self.folder.path().join(NAME)
     }
 }
 

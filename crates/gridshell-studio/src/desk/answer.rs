@@ -97,9 +97,9 @@ impl Desk {
                 self.change(run, "redo", |editor, _| done(editor.redo(), "redo"))
             }
             Request::Hover { run, nodes, question } => {
-                one(editing::hover(run, question, &*self.laid(run)?.trial()?, nodes))
+                one(editing::hover(run, question, &self.laid(run)?.trial()?, nodes))
             }
-            Request::Suggest { run } => one(editing::suggest(run, &*self.laid(run)?.trial()?)),
+            Request::Suggest { run } => one(editing::suggest(run, &self.laid(run)?.trial()?)),
             Request::Saved { run, version } => {
                 self.saved(run, version)?;
                 Ok(Vec::new())
