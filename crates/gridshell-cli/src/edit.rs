@@ -3,6 +3,7 @@
 use crate::Outcome;
 use crate::args::Edit;
 use crate::failure::Failure;
+use crate::progress::Work;
 use crate::{handover, recipe, say};
 use gridshell::edit::{Editor, Figures, Log};
 use gridshell::io::GridFile;
@@ -36,14 +37,15 @@ struct Step {
     after: Figures,
 }
 
-pub fn run(args: &Edit) -> Result<Outcome, Failure> {
+pub fn run(args: &Edit, work: &Work) -> Result<Outcome, Failure> {
+    let job = &work.job;
     args.output.iter().try_for_each(|path| handover::check_output(path))?;
     let structure = handover::structure(&args.handover)?;
-    let supports = handover::supports(&args.handover)?;
+    let supports = handover::supports(&args.handover, job)?;
     let log = args.log.as_deref().map(read_log).transpose()?;
     let opening = args.reading.opening();
-    let mut opened =
-        reopen::open(&args.grid, args.surface.as_deref(), &opening).map_err(Failure::of_input)?;
+    let mut opened = reopen::open(&args.grid, args.surface.as_deref(), &opening, job)
+        .map_err(Failure::of_input)?;
     recipe::tolerances(&mut opened.recipe, &args.alike);
     let Opened { document, grid, surface, edge_length, recipe, notes, .. } = opened;
     let tolerances = Tolerances::from(&recipe.measure);
@@ -59,15 +61,16 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
     let suggested =
         steps(editor.suggest(args.suggest).into_iter().map(|(e, f)| (e, f.after)).collect());
     let grid = editor.finished();
-    let schedule = Schedule::new(&grid, editor.surface(), &tolerances);
+    let schedule = Schedule::new(&grid, editor.surface(), &tolerances, job)?;
     let mut document = reopen::edited(&document, &editor);
     if let Some(supports) = supports {
         document.supports = supports.nodes(&grid, editor.surface())?;
     }
     document.panels.clone_from(&schedule.panels.nodes);
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
-    let wrote = handover::write_all(&args.output, &file)?;
+    let wrote = handover::write_all(&args.output, &file, job)?;
     let (schema, version) = ("gridshell.edit/1", env!("CARGO_PKG_VERSION"));
+    work.told();
     if args.json {
         say::json(&Document { schema, version, before, edits, suggested })?;
         wrote.lines().for_each(say::note);

@@ -3,6 +3,7 @@
 use crate::Outcome;
 use crate::args::Measure;
 use crate::failure::Failure;
+use crate::progress::Work;
 use crate::subject::Measured;
 use crate::{open, report, say, table};
 use gridshell::run::SurfaceSummary;
@@ -25,11 +26,13 @@ struct Document<'a> {
     irregular: Vec<IrregularNode>,
 }
 
-pub fn run(args: &Measure) -> Result<Outcome, Failure> {
+pub fn run(args: &Measure, work: &Work) -> Result<Outcome, Failure> {
+    let job = &work.job;
     args.report.as_deref().map_or(Ok(()), report::check)?;
-    let measured = Measured::new(open::open(&args.grid)?);
+    let measured = Measured::new(open::open(&args.grid, job)?, job)?;
     let subject = measured.subject();
     let (name, quality, figures) = (subject.name(), subject.quality, &subject.schedule.figures);
+    work.told();
     if let Some(path) = &args.report {
         report::write(path, &report::page(&subject, None))?;
         say::note(&format!("wrote {}", path.display()));

@@ -1,6 +1,7 @@
 //! The progress bar on stderr, when that is a terminal, and the job behind it.
 
-use gridshell::job::{Job, Progress};
+use crate::args::Limits;
+use gridshell::job::{Job, Progress, memory};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,21 +13,60 @@ const STEPS: f64 = 1000.0;
 /// Exit code of a second interrupt, by the shells' habit: 128 + SIGINT.
 const INTERRUPTED: i32 = 130;
 
-/// A job with this time limit that shows its progress and stops at an interrupt; and its bar.
-pub fn job(time_limit: Option<f64>) -> (Job, ProgressBar) {
-    let bar = bar();
-    let shown = bar.clone();
-    let mut job = Job::default().with_progress(move |p: &Progress| {
-        if shown.message() != p.stage {
-            shown.set_message(p.stage);
+/// Work that a command does: it keeps to its limits, stops at an interrupt, and is seen.
+pub struct Work {
+    /// What the library is given.
+    pub job: Job,
+    bar: ProgressBar,
+}
+
+impl Work {
+    /// Work with these limits.
+    pub fn new(limits: &Limits) -> Work {
+        let bar = bar();
+        let shown = bar.clone();
+        let mut job = Job::default().with_progress(move |p: &Progress| {
+            if shown.message() != p.stage {
+                shown.set_message(p.stage);
+            }
+            shown.set_position((p.fraction * STEPS) as u64);
+        });
+        if let Some(limit) = memory_limit(limits) {
+            job = job.with_memory_limit(limit);
         }
-        shown.set_position((p.fraction * STEPS) as u64);
-    });
-    if let Some(seconds) = time_limit {
-        job = job.with_time_limit(Duration::from_secs_f64(seconds));
+        if let Some(seconds) = limits.time_limit {
+            // Longer than the clock can tell is no limit.
+            let limit = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
+            job = job.with_time_limit(limit);
+        }
+        Work { job, bar }
     }
-    stop_at_interrupt(&job);
-    (job, bar)
+
+    /// The same, and the first interrupt asks to finish with what there is, the second one leaves at once.
+    pub fn interruptible(limits: &Limits) -> Work {
+        let work = Work::new(limits);
+        let job = work.job.clone();
+        let asked = AtomicBool::new(false);
+        let handler = move || {
+            if asked.swap(true, Ordering::Relaxed) {
+                std::process::exit(INTERRUPTED);
+            }
+            job.cancel();
+        };
+        // Without a handler an interrupt ends the program as it always does.
+        let _ = ctrlc::set_handler(handler);
+        work
+    }
+
+    /// Take the bar away: results are told now.
+    pub fn told(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// The limit of memory that is given, else the usual one, bytes.
+pub fn memory_limit(limits: &Limits) -> Option<u64> {
+    limits.memory_limit.or_else(memory::usual_limit)
 }
 
 fn bar() -> ProgressBar {
@@ -38,18 +78,4 @@ fn bar() -> ProgressBar {
         .expect("the template is well formed");
     bar.set_style(style);
     bar
-}
-
-/// The first interrupt asks the job to finish with what it has, the second one leaves at once.
-fn stop_at_interrupt(job: &Job) {
-    let job = job.clone();
-    let asked = AtomicBool::new(false);
-    let handler = move || {
-        if asked.swap(true, Ordering::Relaxed) {
-            std::process::exit(INTERRUPTED);
-        }
-        job.cancel();
-    };
-    // Without a handler an interrupt ends the program as it always does.
-    let _ = ctrlc::set_handler(handler);
 }

@@ -2,6 +2,7 @@
 
 use gridshell::grid::Grid;
 use gridshell::io::Document;
+use gridshell::job::Job;
 use gridshell::reopen::Opened;
 use gridshell::run::{Run, SurfaceSummary};
 use gridshell::schedule::{Schedule, Tolerances};
@@ -26,11 +27,12 @@ pub struct Measured {
 }
 
 impl Measured {
-    pub fn new(opened: Opened) -> Measured {
+    pub fn new(opened: Opened, job: &Job) -> gridshell::Result<Measured> {
         let options = &opened.recipe.measure;
-        let quality = measure(&opened.grid, &opened.surface, opened.edge_length, options);
-        let schedule = Schedule::new(&opened.grid, &opened.surface, &Tolerances::from(options));
-        Measured { opened, schedule, quality }
+        let quality = measure(&opened.grid, &opened.surface, opened.edge_length, options, job)?;
+        let schedule =
+            Schedule::new(&opened.grid, &opened.surface, &Tolerances::from(options), job)?;
+        Ok(Measured { opened, schedule, quality })
     }
 
     pub fn subject(&self) -> Subject<'_> {

@@ -40,31 +40,35 @@ pub fn taken(laid: &Laid, index: u32, job: &Job) -> Result<Run> {
             "candidates of symmetric grids and of several parts are pieces of a grid only";
         return Err(Error::Option(message.into()));
     }
-    let (surface, _) = pipeline::surface(&laid.opened.model, &run.recipe)?;
+    let (surface, _) = pipeline::surface(&laid.opened.model, &run.recipe, job)?;
     let options = &run.recipe.measure;
-    let judge = |grid: &Grid| measure(grid, &surface, run.edge_length, options);
+    let end = job.finishing();
+    let judge = |grid: &Grid| measure(grid, &surface, run.edge_length, options, &end);
     let stage = |name, seconds, converged, grid: &Grid| StageReport {
         name,
         seconds,
         converged,
-        quality: Some(judge(grid)),
+        quality: None,
         notes: Vec::new(),
         grid: Some(grid.clone()),
     };
-    let regularized = stage("regularize", 0.0, true, &grid);
+    let mut regularized = stage("regularize", 0.0, true, &grid);
+    regularized.quality = Some(judge(&grid)?);
     let clock = Instant::now();
     let report = relax(&surface, &mut grid, &run.recipe, job);
     if job.stopped() {
         return Err(Error::Option("it was stopped".into()));
     }
     grid.settle_exactly(&surface);
-    let relaxed = stage("relax", clock.elapsed().as_secs_f64(), report.converged, &grid);
-    let schedule = Schedule::new(&grid, &surface, &Tolerances::from(options));
+    let mut relaxed = stage("relax", clock.elapsed().as_secs_f64(), report.converged, &grid);
+    let schedule = Schedule::new(&grid, &surface, &Tolerances::from(options), &end)?;
+    let quality = judge(&grid)?;
+    relaxed.quality = Some(quality.clone());
     let mut candidates = run.candidates.clone();
     candidates[..=index as usize].rotate_right(1);
     Ok(Run {
         candidates,
-        quality: judge(&grid),
+        quality,
         figures: schedule.figures.clone(),
         irregular: irregular_nodes(&grid),
         stages: vec![regularized, relaxed],

@@ -3,6 +3,7 @@
 use crate::message::{Event, Step};
 use gridshell::edit::{Edit, Editor, Effect, Refusal};
 use gridshell::error::{Error, Result};
+use gridshell::job::Job;
 use gridshell::pipeline;
 use gridshell::recipe::Recipe;
 use gridshell::surface::{Model, Surface};
@@ -15,8 +16,8 @@ const SUGGESTED: usize = 8;
 ///
 /// # Errors
 /// What making it anew says.
-pub fn surface(model: &Model, recipe: &Recipe) -> Result<Surface> {
-    Ok(pipeline::surface(model, recipe)?.0)
+pub fn surface(model: &Model, recipe: &Recipe, job: &Job) -> Result<Surface> {
+    Ok(pipeline::surface(model, recipe, job)?.0)
 }
 
 /// The edit that the page means.

@@ -4,6 +4,7 @@ use crate::laid::{Finished, Laid};
 use gridshell::error::{Error, Result};
 use gridshell::grid::Grid;
 use gridshell::io::{self, Document, GridFile};
+use gridshell::job::Job;
 use gridshell::run::Run;
 use gridshell::schedule::Schedule;
 use gridshell::stages::measure::{Quality, irregular_nodes};
@@ -80,7 +81,7 @@ pub fn file(laid: &Laid, extension: &str, report: Option<Report>) -> Result<Expo
 fn grid(Finished { document, schedule, .. }: &Finished, path: &Path) -> Result<()> {
     let structure = Structure::default();
     let file = GridFile { document, schedule, structure: &structure };
-    io::write(path, &file).map(|_| ())
+    io::write(path, &file, &Job::default()).map(|_| ())
 }
 
 /// Several files as one.

@@ -15,6 +15,7 @@ use gridshell::edit::{Editor, Log};
 use gridshell::error::Result;
 use gridshell::grid::Grid;
 use gridshell::io::{Document, Reference};
+use gridshell::job::Job;
 use gridshell::recipe::{Effort, Recipe};
 use gridshell::reopen;
 use gridshell::run::Run;
@@ -125,12 +126,15 @@ impl Laid {
     }
 
     /// Keep a grid that was read from a file of the user's under `number`.
-    pub fn of_file(number: u32, read: reopen::Opened, opened: Arc<Opened>) -> Laid {
+    ///
+    /// # Errors
+    /// What measuring it says.
+    pub fn of_file(number: u32, read: reopen::Opened, opened: Arc<Opened>) -> Result<Laid> {
         let reopen::Opened { document, grid, surface, edge_length, recipe, notes, .. } = read;
         let surface = Arc::new(surface);
         let editor = Editor::new(Arc::clone(&surface), grid, recipe.clone(), edge_length);
-        let now = Now::of(0, number, &document, &editor, edge_length, &recipe);
-        Laid {
+        let now = Now::of(0, number, &document, &editor, edge_length, &recipe)?;
+        Ok(Laid {
             number,
             opened,
             run: None,
@@ -145,7 +149,7 @@ impl Laid {
             safe: Mutex::new(Some(0)),
             changing: AtomicBool::default(),
             used: AtomicU64::default(),
-        }
+        })
     }
 
     /// The same grid, which lies on no disk but among what an ended studio left.
@@ -231,7 +235,7 @@ impl Laid {
         }
         let surface = match &now.surface {
             Some(surface) => Arc::clone(surface),
-            None => self.surface()?,
+            None => self.surface(&Job::default())?,
         };
         let trial = now.trial.get_or_init(|| {
             let grid = (*now.grid).clone();
@@ -241,34 +245,38 @@ impl Laid {
     }
 
     /// The surface that it was laid on, made when it is first asked for.
-    fn surface(&self) -> Result<Arc<Surface>> {
+    fn surface(&self, job: &Job) -> Result<Arc<Surface>> {
         let mut surface = held(&self.surface);
         if let Some(surface) = &*surface {
             return Ok(Arc::clone(surface));
         }
-        let made = Arc::new(aside(|| editing::surface(&self.opened.model, &self.recipe))?);
+        let made = Arc::new(aside(|| editing::surface(&self.opened.model, &self.recipe, job))?);
         *surface = Some(Arc::clone(&made));
         Ok(made)
     }
 
-    /// Change the grid; what it was is seen until that is done.
+    /// Change the grid; what it was is seen until that is done. `job` is that of `work`.
     ///
     /// # Errors
-    /// What `work` says, with the grid as it was.
-    pub fn change(&self, work: impl FnOnce(&mut Editor) -> Result<()>) -> Result<()> {
+    /// What `work` says, with the grid as it was; where the job was stopped before.
+    pub fn change(
+        &self,
+        job: &Job,
+        work: impl FnOnce(&mut Editor, &Job) -> Result<()>,
+    ) -> Result<()> {
         let mut editor = held(&self.editor);
         let _changing = Changing::begin(&self.changing);
         let editor = match &mut *editor {
             Some(editor) => editor,
             none => {
-                let (surface, grid) = (self.surface()?, (*self.grid()).clone());
+                let (surface, grid) = (self.surface(job)?, (*self.grid()).clone());
                 none.insert(Editor::new(surface, grid, self.recipe.clone(), self.edge_length))
             }
         };
-        work(editor)?;
+        work(editor, job)?;
         let (version, number) = (self.now().version + 1, self.number);
         let (length, recipe) = (self.edge_length, &self.recipe);
-        let now = Now::of(version, number, &self.document, editor, length, recipe);
+        let now = Now::of(version, number, &self.document, editor, length, recipe)?;
         *held(&self.now) = Arc::new(now);
         Ok(())
     }
@@ -299,8 +307,8 @@ impl Laid {
         }
         let trial = self.trial_of(&now)?;
         let grid = trial.finished();
-        let schedule =
-            Schedule::new(&grid, trial.surface(), &Tolerances::from(&self.recipe.measure));
+        let tolerances = Tolerances::from(&self.recipe.measure);
+        let schedule = Schedule::new(&grid, trial.surface(), &tolerances, &Job::default())?;
         let done = now.log.iter().flat_map(|log| &log.edits).map(|edit| serde_json::json!(edit));
         let edits: Vec<Value> = self.document.edits.iter().cloned().chain(done).collect();
         let panels = schedule.panels.nodes.clone();
@@ -334,9 +342,11 @@ impl Now {
         editor: &Editor,
         edge_length: f64,
         recipe: &Recipe,
-    ) -> Now {
-        let quality = measure(&editor.finished(), editor.surface(), edge_length, &recipe.measure);
-        Now {
+    ) -> Result<Now> {
+        let (grid, surface, options) = (editor.finished(), editor.surface(), &recipe.measure);
+        // What is done is measured whoever cancels.
+        let quality = measure(&grid, surface, edge_length, options, &Job::default())?;
+        Ok(Now {
             version,
             grid: Arc::new(editor.grid().clone()),
             quality,
@@ -344,7 +354,7 @@ impl Now {
             log: Some(editor.log()),
             surface: Some(Arc::clone(editor.surface())),
             trial: OnceLock::new(),
-        }
+        })
     }
 }
 
@@ -357,7 +367,6 @@ fn held<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
 pub mod tests {
     use super::*;
     use gridshell::edit::Edit;
-    use gridshell::job::Job;
     use gridshell::pipeline;
 
     /// The grid of a square, as if from a file.
@@ -374,7 +383,7 @@ pub mod tests {
             recipe: Recipe::default(),
             notes: Vec::new(),
         };
-        Laid::of_file(number, read, opened)
+        Laid::of_file(number, read, opened).unwrap()
     }
 
     /// A coarse draft on the built-in hexagon, told to be of this effort.
@@ -388,11 +397,11 @@ pub mod tests {
 
     /// Pin a node.
     pub fn pin(laid: &Laid, node: u32) {
-        let pin = |editor: &mut Editor| {
+        let pin = |editor: &mut Editor, _: &Job| {
             editor.apply(Edit::Pin { node }).unwrap();
             Ok(())
         };
-        laid.change(pin).unwrap();
+        laid.change(&Job::default(), pin).unwrap();
     }
 
     /// A middle node of the square.
@@ -409,7 +418,7 @@ pub mod tests {
         assert!(!laid.saved(version), "the grid has changed since");
         assert!(laid.unsaved());
         assert!(laid.saved(version + 1) && !laid.unsaved());
-        laid.change(|editor| Ok(drop(editor.undo()))).unwrap();
+        laid.change(&Job::default(), |editor, _| Ok(drop(editor.undo()))).unwrap();
         assert!(laid.unsaved(), "what is undone since then is a change as well");
         assert!(square(2).recovered().unsaved());
     }
@@ -418,7 +427,7 @@ pub mod tests {
     fn while_a_grid_is_changed_what_it_was_is_seen_weighed_and_written() {
         let laid = square(1);
         let before = laid.finished().unwrap();
-        laid.change(|editor| {
+        laid.change(&Job::default(), |editor, _| {
             editor.apply(Edit::Pin { node: MIDDLE }).unwrap();
             // On this very thread: whatever waited for the change would never come.
             assert!(laid.unsaved(), "it is being changed");
@@ -443,13 +452,13 @@ pub mod tests {
         };
         for (a, b) in members {
             let mut told = None;
-            let split = |editor: &mut Editor| {
+            let split = |editor: &mut Editor, _: &Job| {
                 let _ = editor.apply(Edit::Split { nodes: [a, b] });
                 let _ = editor.apply(Edit::Flip { nodes: [a, b] });
                 told = Some((reopen::edited(&laid.document, editor), editor.log()));
                 Ok(())
             };
-            laid.change(split).unwrap();
+            laid.change(&Job::default(), split).unwrap();
             let (document, log) = told.unwrap();
             let finished = laid.finished().unwrap().document;
             assert_eq!(finished.edits, document.edits);

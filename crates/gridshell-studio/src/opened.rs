@@ -6,6 +6,7 @@ use axum::body::Bytes;
 use gridshell::error::{Error, Result};
 use gridshell::inspect::{self, Sketch};
 use gridshell::io::{self, Choice, Document, Opening, Reference};
+use gridshell::job::Job;
 use gridshell::surface::{Model, PolygonMesh, Surface, builtin};
 use std::path::Path;
 
@@ -44,8 +45,8 @@ impl Opened {
         if builtin::model(name_or_path).is_some() {
             return Opened::built_in(name_or_path);
         }
-        let model = io::open_with(name_or_path, opening)?;
-        let reference = io::reference(name_or_path, opening)?;
+        let model = io::open_with(name_or_path, opening, &Job::default())?;
+        let reference = io::reference(name_or_path, opening, &Job::default())?;
         Opened::new(model, Some(reference), Some(contents(Path::new(name_or_path))?))
     }
 
@@ -55,8 +56,8 @@ impl Opened {
     /// As [`Opened::named`].
     pub fn sent(name: &str, file: &Bytes, opening: &Opening) -> Result<Opened> {
         in_folder(name, file, |path| {
-            let model = io::load(path, opening)?;
-            let mut reference = io::reference(&path.to_string_lossy(), opening)?;
+            let model = io::load(path, opening, &Job::default())?;
+            let mut reference = io::reference(&path.to_string_lossy(), opening, &Job::default())?;
             if let Reference::File { path, .. } = &mut reference {
                 name.clone_into(path);
             }
@@ -87,7 +88,7 @@ impl Opened {
     /// # Errors
     /// As [`io::open_reference`].
     pub fn referred(reference: &Reference, path: &Path) -> Result<Opened> {
-        let model = io::open_reference(reference, path)?;
+        let model = io::open_reference(reference, path, &Job::default())?;
         let file = match reference {
             Reference::Builtin(_) => None,
             Reference::File { path: to, .. } => {
@@ -113,8 +114,8 @@ impl Opened {
     }
 
     fn new(model: Model, reference: Option<Reference>, file: Option<Bytes>) -> Result<Opened> {
-        let inspection = inspect::inspect(&model)?;
-        let sketch = inspect::sketch(&model)?;
+        let inspection = inspect::inspect(&model, &Job::default())?;
+        let sketch = inspect::sketch(&model, &Job::default())?;
         let built_in = matches!(reference, Some(Reference::Builtin(_)));
         let info = told::info(&inspection, &sketch.surface, built_in);
         let frame = scene::surface(&sketch);

@@ -4,9 +4,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-#[cfg(feature = "3dm")]
 use gridshell::io::Choice;
 use gridshell::io::Opening;
+#[cfg(feature = "3dm")]
+use gridshell::job::Job;
 use gridshell::mesh::Mesh;
 use gridshell::surface::{Chain, Model, Sampling, Surface, SurfacePoint};
 use std::path::{Path, PathBuf};
@@ -50,7 +51,7 @@ fn row(folder: &Path, line: &str) -> Row {
 
 /// The surface of a file; None where nobody reads its format.
 fn open(row: &Row) -> Option<Result<(Model, Surface), String>> {
-    let model = match gridshell::io::load(&row.path, &Opening::default()) {
+    let model = match gridshell::io::load(&row.path, &Opening::default(), &Job::default()) {
         Err(gridshell::Error::Option(_)) => return None,
         Err(e) => return Some(Err(e.to_string())),
         Ok(model) => model,
@@ -61,7 +62,7 @@ fn open(row: &Row) -> Option<Result<(Model, Surface), String>> {
 
 fn sampled(model: &Model, max_edge: f64) -> Result<Surface, String> {
     let sampling = Sampling { max_edge, chord_error: 0.004 * max_edge, corner_angle: 0.5 };
-    model.surface(&sampling).map_err(|e| e.to_string())
+    model.surface(&sampling, &Job::default()).map_err(|e| e.to_string())
 }
 
 /// What is not as the table says.
@@ -103,7 +104,7 @@ fn every_file_opens_with_the_area_loops_and_corners_of_its_table() {
     let mut faults_of_all = Vec::new();
     for row in rows() {
         let name = row.path.file_name().unwrap().to_string_lossy().into_owned();
-        let found = match open(&row) {
+        let found = match open(&row, &Job::default()) {
             None => continue,
             Some(Err(e)) => vec![e],
             Some(Ok((model, surface))) => faults(&row, &model, &surface),
@@ -121,7 +122,7 @@ fn alike(start: &str) -> Vec<Surface> {
     let models: Vec<Model> = rows()
         .iter()
         .filter(|r| r.path.file_name().unwrap().to_string_lossy().starts_with(start))
-        .filter_map(|r| open(r).map(|s| s.unwrap().0))
+        .filter_map(|r| open(r, &Job::default()).map(|s| s.unwrap().0))
         .collect();
     // A size is looked up at a few points of each edge: files that cut edges elsewhere differ in its fourth digit.
     let max_edge = EDGE * models[0].size();
@@ -157,19 +158,19 @@ fn layers_and_objects_of_a_rhino_file_are_chosen_by_name() {
     let load = |layers: &[&str], objects: &[&str]| {
         let [layers, objects] = [layers, objects].map(|n| n.iter().map(|&s| s.into()).collect());
         let choice = Choice { layers, objects };
-        gridshell::io::load(&file, &Opening { choice, ..Opening::default() })
+        gridshell::io::load(&file, &Opening { choice, ..Opening::default() }, &Job::default())
     };
     let kinds = |model: &Model| match model {
         Model::Brep(b) => b.source.objects.iter().filter(|o| o.faces > 0).count(),
         Model::Mesh(_) => 0,
     };
     // Ball, box, tube and beam; the mesh is told, the line is none of our business.
-    assert_eq!(kinds(&load(&[], &[]).unwrap()), 4);
-    assert_eq!(load(&["Tubes"], &[]).unwrap().parts().len(), 2);
-    assert_eq!(load(&["tubes"], &["beam"]).unwrap().parts().len(), 1);
-    assert_eq!(load(&[], &["box"]).unwrap().face_count(), 6);
-    let mesh = load(&["meshes"], &[]).unwrap();
+    assert_eq!(kinds(&load(&[], &[], &Job::default()).unwrap()), 4);
+    assert_eq!(load(&["Tubes"], &[], &Job::default()).unwrap().parts().len(), 2);
+    assert_eq!(load(&["tubes"], &["beam"], &Job::default()).unwrap().parts().len(), 1);
+    assert_eq!(load(&[], &["box"], &Job::default()).unwrap().face_count(), 6);
+    let mesh = load(&["meshes"], &[], &Job::default()).unwrap();
     assert!(matches!(&mesh, Model::Mesh(m) if !m.faces.is_empty()));
-    let unknown = load(&["roof"], &[]).unwrap_err().to_string();
+    let unknown = load(&["roof"], &[], &Job::default()).unwrap_err().to_string();
     assert!(unknown.contains("tubes") && unknown.contains("solids"), "{unknown}");
 }

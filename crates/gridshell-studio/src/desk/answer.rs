@@ -172,7 +172,7 @@ impl Desk {
         // Before the grid is looked for: one that is being changed is not put away.
         let work = self.begin(run, what)?;
         let laid = self.laid(run)?;
-        laid.change(|editor| change(editor, &work.job))?;
+        laid.change(&work.job, change)?;
         for outgoing in self.look(run, None)? {
             self.send(outgoing);
         }

@@ -20,7 +20,9 @@ impl Desk {
     pub fn open(&self, name_or_path: &str) -> Result<()> {
         let path = Path::new(name_or_path);
         if is_grid(path) {
-            return self.put_grid(io::read_document(path)?, Some(path), |laid| laid).map(|_| ());
+            return self
+                .put_grid(io::read_document(path, &self.job())?, Some(path), |laid| laid)
+                .map(|_| ());
         }
         self.put(&Arc::new(Opened::named(name_or_path, &Opening::default())?));
         Ok(())
@@ -33,7 +35,8 @@ impl Desk {
     /// As [`Desk::open`].
     pub fn open_sent(&self, name: &str, file: &Bytes) -> Result<()> {
         if is_grid(Path::new(name)) {
-            let document = opened::in_folder(name, file, io::read_document)?;
+            let document =
+                opened::in_folder(name, file, |path| io::read_document(path, &self.job()))?;
             return self.put_grid(document, None, |laid| laid).map(|_| ());
         }
         self.put(&Arc::new(Opened::sent(name, file, &Opening::default())?));
@@ -91,7 +94,7 @@ impl Desk {
     ) -> Result<Arc<Laid>> {
         let (opened, notes) = self.surface_of(&document, path)?;
         let model = opened.reference.is_some().then_some(&opened.model);
-        let read = reopen::restore(document, model)?;
+        let read = reopen::restore(document, model, &self.job())?;
         let read = reopen::Opened { notes, ..read };
         self.put(&opened);
         let number = self.number();
@@ -101,7 +104,7 @@ impl Desk {
             self.tell(event);
         }
         drop(state);
-        Ok(self.keep(as_what(Laid::of_file(number, read, opened))))
+        Ok(self.keep(as_what(Laid::of_file(number, read, opened)?)))
     }
 
     /// The surface that a grid lies on, else the grid itself, with a note on that.

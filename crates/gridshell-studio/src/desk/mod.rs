@@ -57,16 +57,18 @@ struct State {
 /// greeted and work is cancelled at any time.
 pub struct Desk {
     report: Option<Report>,
+    memory_limit: Option<u64>,
     state: Mutex<State>,
     events: broadcast::Sender<Outgoing>,
     live: watch::Sender<Option<Bytes>>,
 }
 
 impl Desk {
-    /// An empty desk; `report` makes pages on its grids.
-    pub fn new(report: Option<Report>) -> Desk {
+    /// An empty desk; `report` makes pages on its grids, `memory_limit` is in bytes.
+    pub fn new(report: Option<Report>, memory_limit: Option<u64>) -> Desk {
         Desk {
             report,
+            memory_limit,
             state: Mutex::default(),
             events: broadcast::channel(BACKLOG).0,
             live: watch::channel(None).0,
@@ -124,7 +126,7 @@ impl Desk {
 
     /// Begin something that may take a while: told of when it does, until it is dropped.
     fn begin(self: &Arc<Self>, run: u32, what: &str) -> Result<Work> {
-        let job = Job::default();
+        let job = self.job();
         {
             let mut state = self.state();
             if state.work.is_some() {
@@ -140,6 +142,14 @@ impl Desk {
         });
         watched.progress("begin", 0.0, Picture::None);
         Ok(Work { desk: Arc::clone(self), job: watched })
+    }
+
+    /// A job for work on the desk, within the limits.
+    pub(crate) fn job(&self) -> Job {
+        match self.memory_limit {
+            Some(limit) => Job::default().with_memory_limit(limit),
+            None => Job::default(),
+        }
     }
 
     /// The next grid's number.

@@ -3,6 +3,7 @@
 use super::own;
 use crate::message::{Damaged, Left};
 use gridshell::io::{self, Document};
+use gridshell::job::Job;
 use std::cmp::Reverse;
 use std::fs::{self, File};
 use std::io::Read;
@@ -70,7 +71,7 @@ impl Found {
         let Found { folder, numbered, when, lock } = self;
         let mut ended = Ended { grids: Vec::new(), damaged: Vec::new(), folder, when, lock };
         for (_, path) in numbered {
-            match io::read_document(&path) {
+            match io::read_document(&path, &Job::default()) {
                 Ok(document) => ended.grids.push((path, document)),
                 Err(error) => ended.damage(&path, &error.to_string()),
             }

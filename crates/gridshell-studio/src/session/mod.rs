@@ -19,6 +19,7 @@ pub use ended::Ended;
 use crate::laid::{Finished, Laid};
 use gridshell::error::{Error, Result};
 use gridshell::io::{self, GridFile, Reference};
+use gridshell::job::Job;
 use gridshell::structure::Structure;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -185,7 +186,8 @@ fn write(folder: &Path, laid: &Laid) -> Result<()> {
     }
     let structure = Structure::default();
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
-    io::write(&folder.join(own::grid_name(laid.number)), &file).map(|_| ())
+    let path = folder.join(own::grid_name(laid.number));
+    io::write(&path, &file, &Job::default()).map(|_| ())
 }
 
 #[cfg(test)]

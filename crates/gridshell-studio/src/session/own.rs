@@ -5,6 +5,7 @@
 //! Files go one by one and folders only when they are empty, so whatever else lies there stays.
 
 use gridshell::io::{self, Opening, Reference};
+use gridshell::job::Job;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -96,7 +97,8 @@ fn clear_copy(folder: &Path) {
         return;
     }
     for file in files.into_iter().filter(|f| is_file(f)) {
-        let reference = io::reference(&file.to_string_lossy(), &Opening::default());
+        let reference =
+            io::reference(&file.to_string_lossy(), &Opening::default(), &Job::default());
         let is_copy = |r: &Reference| match r {
             Reference::File { fnv1a, .. } => folder.ends_with(fnv1a),
             Reference::Builtin(_) => false,

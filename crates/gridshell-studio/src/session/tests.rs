@@ -167,7 +167,8 @@ fn a_copy_of_a_surface_goes_with_its_last_grid() {
     let roof = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let loose = state.path().join("roof.obj");
     fs::write(&loose, roof).unwrap();
-    let reference = io::reference(&loose.to_string_lossy(), &io::Opening::default()).unwrap();
+    let reference =
+        io::reference(&loose.to_string_lossy(), &io::Opening::default(), &Job::default()).unwrap();
     let Reference::File { fnv1a, .. } = reference else { panic!("a file") };
     let copy = folder.join(fnv1a);
     fs::create_dir(&copy).unwrap();

@@ -11,8 +11,10 @@ use std::sync::LazyLock;
 fn start(name: &str, length: f64, guided: bool) -> (Arc<Surface>, Grid, Recipe) {
     let sampling =
         Sampling { max_edge: 0.5 * length, chord_error: 2e-3 * length, corner_angle: 0.5 };
-    let mut surface =
-        builtin::model(name).expect("built in").surface(&sampling).expect("a surface");
+    let mut surface = builtin::model(name)
+        .expect("built in")
+        .surface(&sampling, &Job::default())
+        .expect("a surface");
     if guided {
         let guide = vec![DVec3::new(-2.0, -1.0, 0.0), DVec3::new(2.0, 1.5, 0.0)];
         let anchors = [DVec3::new(0.0, -2.0, 0.0)];
@@ -23,7 +25,7 @@ fn start(name: &str, length: f64, guided: bool) -> (Arc<Surface>, Grid, Recipe) 
             corner_angle: 0.5,
             edge_length: length,
         };
-        surface.fix(&wanted).expect("guide and anchor are on the surface");
+        surface.fix(&wanted, &Job::default()).expect("guide and anchor are on the surface");
     }
     let counts = |pieces: &[pack::boundary::Piece]| -> Vec<usize> {
         pieces.iter().map(|p| pack::boundary::member_count(p, length)).collect()
@@ -40,7 +42,8 @@ fn start(name: &str, length: f64, guided: bool) -> (Arc<Surface>, Grid, Recipe) 
     bubbles.interior = pack::scatter(&surface, count, &held, 0.6 * length, &mut rng);
     let recipe = Recipe { edge_length: Some(length), ..Recipe::default() };
     pack::settle(&surface, &mut bubbles, length, &recipe.pack, &crate::job::Job::default());
-    let mut grid = triangulate::triangulate(&surface, &bubbles).expect("a manifold").0;
+    let mut grid =
+        triangulate::triangulate(&surface, &bubbles, &Job::default()).expect("a manifold").0;
     let mut few = recipe.clone();
     few.regularize.method = crate::recipe::RegularizeMethod::Paper;
     few.regularize.max_rounds = 1;
@@ -74,7 +77,13 @@ fn assert_sound(editor: &Editor, euler: i64) {
     editor.grid.mesh.check().expect("a manifold");
     assert_eq!(editor.grid.mesh.euler_characteristic(), euler);
     let grid = editor.finished();
-    let quality = measure(&grid, &editor.surface, editor.edge_length, &editor.recipe.measure);
+    let quality = measure(
+        &grid,
+        &editor.surface,
+        editor.edge_length,
+        &editor.recipe.measure,
+        &Job::default(),
+    );
     assert_eq!(quality.folded_panels, 0);
     assert!(quality.surface_deviation < 1e-9, "{}", quality.surface_deviation);
     assert!(quality.boundary_deviation < 1e-9, "{}", quality.boundary_deviation);

@@ -5,6 +5,7 @@ use super::{
     stl, vtu,
 };
 use crate::error::{Error, Result};
+use crate::job::Job;
 use std::path::{Path, PathBuf};
 
 /// Ends of paths that can be written.
@@ -73,7 +74,8 @@ impl Format {
 /// # Errors
 /// [`Error::Io`], or [`Error::Option`] listing the known ends for an unknown one, or where the format cannot hold so
 /// large a grid.
-pub fn write(path: &Path, grid: &GridFile) -> Result<Vec<PathBuf>> {
+pub fn write(path: &Path, grid: &GridFile, job: &Job) -> Result<Vec<PathBuf>> {
+    job.check("writing")?;
     let bytes = match Format::of(path)? {
         Format::Csv => return write_tables(path, grid),
         Format::Native => native::encode(grid.document),

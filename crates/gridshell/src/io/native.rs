@@ -3,6 +3,7 @@
 use super::document::{Document, SCHEMA};
 use super::{file, scan};
 use crate::error::{Error, Result};
+use crate::job::Job;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -10,8 +11,8 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`Error::Parse`](crate::Error::Parse) with the line of what is no such file, or the node or panel that is wrong.
-pub fn read_document(path: &Path) -> Result<Document> {
-    let bytes = file::read(path)?;
+pub fn read_document(path: &Path, job: &Job) -> Result<Document> {
+    let bytes = file::read(path, job)?;
     let document: Document = match serde_json::from_slice(&bytes) {
         Ok(document) => document,
         Err(e) => return Err(refusal(path, &bytes, &e)),

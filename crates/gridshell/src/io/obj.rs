@@ -6,6 +6,7 @@ use super::scan::{self, Line};
 use super::soup::Soup;
 use super::{LengthUnit, file, text};
 use crate::error::Result;
+use crate::job::Job;
 use glam::DVec3;
 use std::collections::HashSet;
 use std::fmt::Write;
@@ -16,8 +17,8 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`Error::Parse`](crate::Error::Parse) with the line.
-pub(super) fn read(path: &Path) -> Result<Soup> {
-    let bytes = file::read(path)?;
+pub(super) fn read(path: &Path, job: &Job) -> Result<Soup> {
+    let bytes = file::read(path, job)?;
     let text = text::decode(&bytes);
     let joined = if text.contains('\\') { join_continued(&text) } else { text.into_owned() };
     let unit = joined
@@ -28,7 +29,7 @@ pub(super) fn read(path: &Path) -> Result<Soup> {
     let (mut curved, mut dots, mut lines) = (0, 0, Vec::new());
     // With the number of vertices above: those further down may be named as well.
     let mut drawn: Vec<(Line, usize)> = Vec::new();
-    for line in scan::lines(path, &joined) {
+    for line in scan::lines(path, &joined, job) {
         let mut words = line.text.split_ascii_whitespace();
         match words.next() {
             Some("v") => soup.points.push(line.point(&mut words)?),

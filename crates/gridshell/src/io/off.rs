@@ -5,6 +5,7 @@ use super::scan::{self, Line};
 use super::soup::Soup;
 use super::{LengthUnit, file, text};
 use crate::error::Result;
+use crate::job::Job;
 use glam::DVec3;
 use std::fmt::Write;
 use std::path::Path;
@@ -13,10 +14,10 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`Error::Parse`](crate::Error::Parse) with the line.
-pub(super) fn read(path: &Path) -> Result<Soup> {
-    let bytes = file::read(path)?;
+pub(super) fn read(path: &Path, job: &Job) -> Result<Soup> {
+    let bytes = file::read(path, job)?;
     let text = text::decode(&bytes);
-    let mut lines = scan::lines(path, &text);
+    let mut lines = scan::lines(path, &text, job);
     let ends = || {
         scan::error(path, "end of file", "the file ends before all vertices and faces are given")
     };

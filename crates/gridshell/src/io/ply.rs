@@ -5,6 +5,7 @@ use super::grid_file::GridFile;
 use super::soup::{Digits, Soup};
 use super::{LengthUnit, file, scan};
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::schedule::Schedule;
 use glam::DVec3;
 use std::fmt::Write;
@@ -56,8 +57,8 @@ struct Head {
 ///
 /// # Errors
 /// [`Error::Parse`] with the line of the head or the element of the body.
-pub(super) fn read(path: &Path) -> Result<Soup> {
-    let bytes = file::read(path)?;
+pub(super) fn read(path: &Path, job: &Job) -> Result<Soup> {
+    let bytes = file::read(path, job)?;
     let (head, body) = split_head(path, &bytes)?;
     let mut body = Body { path, encoding: head.encoding, rest: body, place: String::new() };
     let mut soup = Soup { unit: head.unit, digits: head.digits(), ..Soup::default() };

@@ -1,6 +1,7 @@
 //! Reading text line by line: numbers, and errors that name the line.
 
 use crate::error::{Error, Result};
+use crate::job::Job;
 use glam::DVec3;
 use std::path::Path;
 use std::str::FromStr;
@@ -16,9 +17,15 @@ pub(super) struct Line<'a> {
 }
 
 /// The lines of a text that are not blank once their comment is cut off at `#`.
-pub(super) fn lines<'a>(path: &'a Path, text: &'a str) -> impl Iterator<Item = Line<'a>> {
+/// They end early where the job is over, which the caller is to check.
+pub(super) fn lines<'a>(
+    path: &'a Path,
+    text: &'a str,
+    job: &'a Job,
+) -> impl Iterator<Item = Line<'a>> {
     let cut = |line: &'a str| line.split('#').next().unwrap_or_default().trim();
     text.lines()
+        .take_while(|_| !job.is_over("reading"))
         .enumerate()
         .map(move |(k, line)| Line { path, number: k + 1, text: cut(line) })
         .filter(|line| !line.text.is_empty())

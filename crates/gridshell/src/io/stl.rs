@@ -5,6 +5,7 @@ use super::grid_file::GridFile;
 use super::soup::{Digits, Soup};
 use super::{LengthUnit, file, scan, text, weld};
 use crate::error::Result;
+use crate::job::Job;
 use glam::{DVec3, Vec3};
 use std::path::Path;
 
@@ -19,8 +20,8 @@ const COARSE: f64 = 1e-5;
 ///
 /// # Errors
 /// [`Error::Parse`](crate::Error::Parse) with line or facet.
-pub(super) fn read(path: &Path) -> Result<Soup> {
-    let bytes = file::read(path)?;
+pub(super) fn read(path: &Path, job: &Job) -> Result<Soup> {
+    let bytes = file::read(path, job)?;
     let facets = bytes.get(80..HEAD).map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]) as usize);
     let start = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes).trim_ascii_start();
     let text_like = start.get(..5).is_some_and(|s| s.eq_ignore_ascii_case(b"solid"));
@@ -37,7 +38,7 @@ pub(super) fn read(path: &Path) -> Result<Soup> {
             Soup { unit, digits: Digits::Single, ..read_binary(path, &bytes[HEAD..], n)? }
         }
         // A text file has no zero bytes; a cut-off binary one surely does.
-        _ if text_like && !bytes.contains(&0) => read_text(path, &bytes)?,
+        _ if text_like && !bytes.contains(&0) => read_text(path, &bytes, job)?,
         Some(n) => {
             let message =
                 format!("the file ends here, but its head promises {n} facets; export it again");
@@ -76,11 +77,11 @@ fn read_binary(path: &Path, bytes: &[u8], facets: usize) -> Result<Soup> {
     Ok(soup)
 }
 
-fn read_text(path: &Path, bytes: &[u8]) -> Result<Soup> {
+fn read_text(path: &Path, bytes: &[u8], job: &Job) -> Result<Soup> {
     let text = text::decode(bytes);
     let mut soup = Soup::default();
     let mut corners = Vec::new();
-    for line in scan::lines(path, &text) {
+    for line in scan::lines(path, &text, job) {
         let mut words = line.text.split_ascii_whitespace();
         match words.next().map(str::to_ascii_lowercase).as_deref() {
             Some("vertex") => corners.push(line.point(&mut words)?),

@@ -16,7 +16,7 @@ mod wishes;
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use crate::recipe::{Recipe, Symmetry};
 use crate::run::{CandidateReport, Run, SCHEMA, StageReport, SurfaceSummary};
 use crate::schedule::{Schedule, Tolerances};
@@ -40,16 +40,16 @@ const SENSIBLE_NODES: usize = 1000;
 /// several parts of which the recipe chooses none, [`Error::NoGrid`] where no valid grid of this edge length exists.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
-    parts::generate(&*smoothed(model, recipe)?, recipe, job)
+    parts::generate(&*smoothed(model, recipe, job)?, recipe, job)
 }
 
 /// Lay a grid on a model of one part; the surface that it was laid on is given too.
 fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
-    let Scale { length, nodes } = scale(model, recipe)?;
-    let make = |l: f64| model.surface(&sampling(l, nodes, recipe));
-    let (surface, mut fixed) = wishes::surface(recipe, length, make)?;
+    let Scale { length, nodes } = scale(model, recipe, job)?;
+    let make = |l: f64| model.surface(&sampling(l, nodes, recipe), job);
+    let (surface, mut fixed) = wishes::surface(recipe, length, make, job)?;
     let size = Scale { length, nodes };
-    if let Some(group) = symmetry::group(&surface, model, recipe, length)? {
+    if let Some(group) = symmetry::group(&surface, model, recipe, length, job)? {
         let run = symmetry::generate(model, &surface, &group, recipe, &size, fixed, job)?;
         return Ok((run, surface));
     }
@@ -64,16 +64,16 @@ fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
 ///
 /// # Errors
 /// As [`generate`].
-pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
+pub fn surface(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Surface, f64)> {
     recipe.validate()?;
-    parts::surface(&*smoothed(model, recipe)?, recipe)
+    parts::surface(&*smoothed(model, recipe, job)?, recipe, job)
 }
 
 /// The surface of a model of one part, and the wanted member length in metres.
-fn whole(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
-    let Scale { length, nodes } = scale(model, recipe)?;
-    let (surface, _) =
-        wishes::surface(recipe, length, |l| model.surface(&sampling(l, nodes, recipe)))?;
+fn whole(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Surface, f64)> {
+    let Scale { length, nodes } = scale(model, recipe, job)?;
+    let make = |l: f64| model.surface(&sampling(l, nodes, recipe), job);
+    let (surface, _) = wishes::surface(recipe, length, make, job)?;
     Ok((surface, length))
 }
 
@@ -88,7 +88,11 @@ fn lay(
 ) -> Result<Run> {
     let budget = effort::budgeted(recipe, nodes);
     let mut stages = Vec::new();
-    let judge = |grid: &Grid| measure(grid, surface, length, &recipe.measure);
+    // A grid that is there is finished and told, whatever the job.
+    let end = job.finishing();
+    let judge = |grid: &Grid| measure(grid, surface, length, &recipe.measure, &end);
+    let judge_on_the_way =
+        |grid: &Grid| if job.stopped() { Ok(None) } else { judge(grid).map(Some) };
 
     let clock = Instant::now();
     let Starts { starts, notes } = starts::starts(surface, length, &budget, job)?;
@@ -99,7 +103,7 @@ fn lay(
         .par_iter()
         .map(|start| match &start.grid {
             Some(grid) => Ok((grid.clone(), triangulate::Report::default())),
-            None => triangulate::triangulate(surface, &start.bubbles),
+            None => triangulate::triangulate(surface, &start.bubbles, job),
         })
         .collect::<Result<_>>()?;
     let triangulated_in = clock.elapsed().as_secs_f64();
@@ -119,12 +123,13 @@ fn lay(
     let mut warnings = fixed;
     warnings.extend(self::warnings(surface, bubbles.len(), report));
     // Bubbles have no members yet: what is measured, as in the paper's Table 3, is their Delaunay grid.
-    let packed_quality = judge(grid);
+    job.progress("measure", 0.0, Picture::None);
+    let packed_quality = judge_on_the_way(grid)?;
     stages.push(StageReport {
         name: "pack",
         seconds: packed,
         converged: settled.is_none_or(|r| r.converged),
-        quality: Some(packed_quality.clone()),
+        quality: packed_quality.clone(),
         notes,
         grid: Some(exact(grid.clone(), surface)),
     });
@@ -132,7 +137,7 @@ fn lay(
         name: "triangulate",
         seconds: triangulated_in,
         converged: true,
-        quality: Some(packed_quality),
+        quality: packed_quality,
         notes: Vec::new(),
         grid: Some(exact(grid.clone(), surface)),
     });
@@ -140,12 +145,12 @@ fn lay(
         name: "regularize",
         seconds: regularized_in,
         converged: winner.regularized.converged,
-        quality: Some(judge(&winner.before)),
+        quality: judge_on_the_way(&winner.before)?,
         notes: vec![winner.regularized.to_string()],
         grid: Some(exact(winner.before, surface)),
     });
     let grid = exact(winner.grid, surface);
-    let quality = judge(&grid);
+    let quality = judge(&grid)?;
     stages.push(StageReport {
         name: "relax",
         seconds: relaxed_in,
@@ -175,7 +180,8 @@ fn finish(
     job: &Job,
 ) -> Result<Run> {
     check(surface, &grid, &quality, length)?;
-    let schedule = Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure));
+    let schedule =
+        Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure), &job.finishing())?;
     Ok(Run {
         schema: SCHEMA,
         version: env!("CARGO_PKG_VERSION"),
@@ -251,8 +257,8 @@ fn sampling(length: f64, nodes: f64, recipe: &Recipe) -> Sampling {
 /// # Errors
 /// [`Error::Option`] as [`Recipe::check_edge_length`], [`Error::Surface`] as
 /// [`Model::surface`].
-pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
-    Ok(scale(model, recipe)?.length)
+pub fn edge_length(model: &Model, recipe: &Recipe, job: &Job) -> Result<f64> {
+    Ok(scale(model, recipe, job)?.length)
 }
 
 /// How large a grid is.
@@ -263,8 +269,8 @@ struct Scale {
     nodes: f64,
 }
 
-fn scale(model: &Model, recipe: &Recipe) -> Result<Scale> {
-    scale_on(model.surface(&rough(model.size(), recipe))?, recipe)
+fn scale(model: &Model, recipe: &Recipe, job: &Job) -> Result<Scale> {
+    scale_on(model.surface(&rough(model.size(), recipe), job)?, recipe)
 }
 
 /// The sampling that areas and lengths are estimated with, for a model of this size.

@@ -19,7 +19,9 @@ pub use members::Members;
 pub use nodes::Nodes;
 pub use panels::Panels;
 
+use crate::error::Result;
 use crate::grid::Grid;
+use crate::job::Job;
 use crate::recipe;
 use crate::surface::Surface;
 
@@ -62,7 +64,12 @@ pub struct Schedule {
 
 impl Schedule {
     /// The schedules of `grid` on `surface`.
-    pub fn new(grid: &Grid, surface: &Surface, tolerances: &Tolerances) -> Schedule {
+    pub fn new(
+        grid: &Grid,
+        surface: &Surface,
+        tolerances: &Tolerances,
+        job: &Job,
+    ) -> Result<Schedule> {
         let mut members = Members::new(grid, surface);
         let count = members.length.len().max(1) as f64;
         let mean = members.length.iter().sum::<f64>() / count;
@@ -73,7 +80,8 @@ impl Schedule {
         members.take_bend(&nodes);
         let figures =
             Figures::new(&nodes, &members, &panels, length_tolerance, tolerances.angle_deg);
-        Schedule { nodes, members, panels, figures }
+        job.check("measuring")?;
+        Ok(Schedule { nodes, members, panels, figures })
     }
 }
 

@@ -10,6 +10,7 @@ use super::cut::Cutter;
 use super::track::Track;
 use super::{Chain, Surface, SurfacePoint, carrier::NONE};
 use crate::error::Result;
+use crate::job::Job;
 use crate::math::trig;
 use glam::DVec3;
 
@@ -43,7 +44,7 @@ impl Surface {
     /// # Errors
     /// [`Error::Surface`](crate::Error::Surface) with coordinates where a guide leaves the surface or is
     /// shorter than a member, or an anchor lies off the surface by more than one.
-    pub fn fix(&mut self, wanted: &Fixtures) -> Result<Vec<String>> {
+    pub fn fix(&mut self, wanted: &Fixtures, job: &Job) -> Result<Vec<String>> {
         let mut notes = Vec::new();
         if let Some(angle) = wanted.crease_angle {
             self.mark_creases(angle);
@@ -53,9 +54,11 @@ impl Surface {
         if !wanted.guides.is_empty() || !wanted.anchors.is_empty() {
             let mut cutter = Cutter::new(self, wanted.edge_length);
             for (i, guide) in wanted.guides.iter().enumerate() {
+                job.check("fixing guides")?;
                 notes.extend(cutter.cut_guide(i, guide)?);
             }
             for (i, &anchor) in wanted.anchors.iter().enumerate() {
+                job.check("fixing anchors")?;
                 let (vertex, note) = cutter.put_anchor(i, anchor)?;
                 anchors.push(vertex);
                 notes.extend(note);

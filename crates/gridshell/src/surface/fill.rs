@@ -5,10 +5,12 @@
 //! face apart do not see each other. The spacing follows the bending of the patch and grows gently away
 //! from short boundary pieces.
 
+use super::PREPARING;
 use super::model::Sampling;
 use super::sample::{LEAST_SHARE, ROUNDING, piece_length};
 use super::shape::Shape;
 use super::trim::{NEW, Node};
+use crate::job::Job;
 use crate::math::trig;
 use glam::{DVec2, DVec3, IVec3};
 use std::collections::HashMap;
@@ -36,14 +38,18 @@ const LEAST_STEP: f64 = 1e-5;
 const MOST_PROBES: f64 = 160.0;
 
 /// Nodes for the inside of the polygons `loops`. None where there would be more than `most`, or where they crowd
-/// so that finding them takes more than so many `looks` at points.
+/// so that finding them takes more than so many `looks` at points, or the job is over.
 pub(super) fn inside(
     shape: &Shape,
     loops: &[Vec<Node>],
     sampling: &Sampling,
     most: usize,
     looks: usize,
+    job: &Job,
 ) -> Option<Vec<Node>> {
+    if job.is_over(PREPARING) {
+        return None;
+    }
     let sizes = Sizes::new(shape, loops, sampling);
     let mut taken = Taken::new(sampling.max_edge);
     for l in loops {
@@ -87,7 +93,7 @@ pub(super) fn inside(
                     taken.push(jet.point, normal, size);
                     nodes.push(Node { uv, xyz: jet.point, vertex: NEW, free: None });
                 }
-                if nodes.len() > most || taken.looks > looks {
+                if nodes.len() > most || taken.looks > looks || job.is_over(PREPARING) {
                     return None;
                 }
                 u += (wanted / (CANDIDATES * along.max(1e-300)))

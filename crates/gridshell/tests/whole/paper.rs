@@ -32,7 +32,7 @@ fn settled(surface: &Surface, recipe: &Recipe) -> (Bubbles, Vec<ChainPoint>, pac
 }
 
 fn triangulated(surface: &Surface, recipe: &Recipe) -> Grid {
-    triangulate::triangulate(surface, &settled(surface, recipe).0).unwrap().0
+    triangulate::triangulate(surface, &settled(surface, recipe).0, &Job::default()).unwrap().0
 }
 
 fn quality(grid: &Grid, surface: &Surface) -> Quality {

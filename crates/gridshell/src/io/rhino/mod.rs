@@ -8,6 +8,7 @@ mod convert;
 use super::soup::Soup;
 use super::{Choice, LengthUnit, Opening, file, weld};
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::NurbsCurve;
 use crate::surface::{Curve, Model, Object, PolygonMesh, Shape, Source, Unit};
@@ -41,8 +42,8 @@ const MOST_NOTES: usize = 10;
 /// # Errors
 /// [`Error::Io`] where the file cannot be read, [`Error::Parse`] where it is no 3DM file or holds no surface,
 /// [`Error::Option`] for a layer or an object that is not there.
-pub(super) fn read(path: &Path, choice: &Choice) -> Result<Model> {
-    let bytes = file::read(path)?;
+pub(super) fn read(path: &Path, choice: &Choice, job: &Job) -> Result<Model> {
+    let bytes = file::read(path, job)?;
     let fault = |place: &str, message: String| Error::Parse {
         path: path.to_path_buf(),
         place: place.into(),
@@ -71,7 +72,7 @@ pub(super) fn read(path: &Path, choice: &Choice) -> Result<Model> {
         of_shape && loss.severity != Severity::Info
     });
     reading.told(lost.map(|loss| loss.message.clone()));
-    reading.finish(path, version)
+    reading.finish(path, version, job)
 }
 
 /// A file while it is read.
@@ -379,13 +380,13 @@ impl<'a> Reading<'a> {
         }
     }
 
-    fn finish(mut self, path: &Path, version: String) -> Result<Model> {
+    fn finish(mut self, path: &Path, version: String, job: &Job) -> Result<Model> {
         let source = Source { version, ..source(self.ir, self.listed) };
         let notes = std::mem::take(&mut self.brep.notes);
         if self.brep.faces.is_empty() && !self.mesh.faces.is_empty() {
             // The decoder has brought it to metres.
             let soup = Soup { notes, unit: Some(LengthUnit::Metre), ..self.mesh };
-            let mesh = weld::weld(path, soup, &Opening::default())?;
+            let mesh = weld::weld(path, soup, &Opening::default(), job)?;
             return Ok(Model::Mesh(PolygonMesh { source, ..mesh }));
         }
         if self.brep.faces.is_empty() {

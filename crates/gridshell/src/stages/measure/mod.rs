@@ -17,7 +17,9 @@ pub use panels::is_folded;
 pub use quality::{Border, Degrees, EdgeLength, Irregular, IrregularNode, Lengths, Quality, Shape};
 
 use crate::degree::{REGULAR, adjusted_degree, boundary_angle, virtual_degree, weight};
+use crate::error::Result;
 use crate::grid::{Grid, Place};
+use crate::job::Job;
 use crate::recipe;
 use crate::surface::Surface;
 use glam::DVec3;
@@ -27,22 +29,27 @@ use std::collections::BTreeMap;
 const PERFECT: f64 = 1e-9;
 
 /// Measure `grid` on `surface`, where members of `edge_length` metres were wanted.
+///
+/// # Errors
+/// [`Error::Stopped`](crate::Error::Stopped) where the job is over.
 pub fn measure(
     grid: &Grid,
     surface: &Surface,
     edge_length: f64,
     options: &recipe::Measure,
-) -> Quality {
+    job: &Job,
+) -> Result<Quality> {
     let off = |distance: &dyn Fn(&Place, DVec3) -> f64| {
         let places = grid.places.iter().zip(&grid.xyz);
         places.map(|(p, x)| distance(p, *x)).fold(0.0, f64::max) / edge_length
     };
-    Quality {
+    job.check("measuring")?;
+    Ok(Quality {
         surface_deviation: off(&|place, xyz| place.off_surface(surface, xyz)),
         boundary_deviation: off(&|place, xyz| place.off_boundary(surface, xyz)),
         bridging_members: bridging::count(grid, surface, edge_length),
         ..compare(grid, surface, edge_length, options)
-    }
+    })
 }
 
 /// As [`measure`], without what needs walks and projections on the surface: the two deviations and the

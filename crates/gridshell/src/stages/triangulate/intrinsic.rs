@@ -1,5 +1,7 @@
 //! An intrinsic triangulation: a mesh with edge lengths measured along the surface.
 
+use super::PHASE;
+use crate::job::Job;
 use crate::mesh::{Mesh, Undo};
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
@@ -121,16 +123,16 @@ impl Intrinsic {
     }
 
     /// Flip until every edge is Delaunay (Lawson).
-    pub fn make_delaunay(&mut self) {
+    pub fn make_delaunay(&mut self, job: &Job) {
         self.suspects = self.mesh.edges().collect();
-        self.settle();
+        self.settle(job);
     }
 
-    fn settle(&mut self) {
+    fn settle(&mut self, job: &Job) {
         // Lawson's flips end by themselves; rounding and refused flips are what the limit guards against.
         let mut budget = 100 * self.suspects.len() + 10_000;
         while let Some((a, b)) = self.suspects.pop() {
-            if budget == 0 {
+            if budget == 0 || job.is_over(PHASE) {
                 self.suspects.clear();
                 return;
             }
@@ -142,13 +144,16 @@ impl Intrinsic {
     }
 
     /// Remove these vertices, keeping the rest Delaunay; gives those that cannot go without changing the
-    /// surface's topology.
-    pub fn remove_all(&mut self, mut vertices: Vec<u32>) -> Vec<u32> {
+    /// surface's topology. Of no use where the job is over: the caller is to check.
+    pub fn remove_all(&mut self, mut vertices: Vec<u32>, job: &Job) -> Vec<u32> {
         loop {
             let before = vertices.len();
             vertices.retain(|&v| {
+                if job.is_over(PHASE) {
+                    return false;
+                }
                 let gone = self.remove(v);
-                self.settle();
+                self.settle(job);
                 !gone
             });
             if vertices.is_empty() || vertices.len() == before {
