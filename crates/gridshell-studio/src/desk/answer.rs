@@ -97,9 +97,13 @@ impl Desk {
                 self.change(run, "redo", |editor, _| done(editor.redo(), "redo"))
             }
             Request::Hover { run, nodes, question } => {
-                one(editing::hover(run, question, &self.laid(run)?.trial()?, nodes))
+                let trial = self.laid(run)?.trial()?;
+                one(editing::hover(run, question, &trial, nodes))
             }
-            Request::Suggest { run } => one(editing::suggest(run, &self.laid(run)?.trial()?)),
+            Request::Suggest { run } => {
+                let trial = self.laid(run)?.trial()?;
+                one(editing::suggest(run, &trial))
+            }
             Request::Saved { run, version } => {
                 self.saved(run, version)?;
                 Ok(Vec::new())

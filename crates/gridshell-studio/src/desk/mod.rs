@@ -235,15 +235,6 @@ impl Drop for Work {
     }
 }
 
-impl State {
-    /// A grid need not be kept against crashes any more.
-    fn no_longer(&self, number: u32) {
-        if let Some(session) = &self.session {
-            session.forget(number);
-        }
-    }
-}
-
 fn recipe(state: &State) -> Option<Event> {
     let (run, recipe) = state.recipe.as_ref()?;
     Some(Event::Recipe { run: *run, values: form::values(recipe) })
