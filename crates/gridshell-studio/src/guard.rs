@@ -7,7 +7,7 @@
 //! then on needs no token: the page takes it out of its address. Browsers send the pass with our own pages' requests
 //! only (`SameSite=Strict`); those of a page at another port of this machine, which counts as the same site, say so.
 
-use axum::http::{HeaderMap, HeaderName, Method, Uri, header};
+use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, Uri, header};
 use std::fmt::Write;
 
 /// Bytes of the token, and of the pass.
@@ -96,7 +96,7 @@ impl Guard {
         if !self.has_pass(headers) {
             return Err("a wrong token");
         }
-        match headers.get(FETCH_SITE).map(|v| v.as_bytes()) {
+        match headers.get(FETCH_SITE).map(HeaderValue::as_bytes) {
             None | Some(b"same-origin" | b"none") => Ok(Shown::Pass),
             Some(_) => Err("another page's request"),
         }

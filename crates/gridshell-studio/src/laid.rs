@@ -418,7 +418,11 @@ pub mod tests {
         assert!(!laid.saved(version), "the grid has changed since");
         assert!(laid.unsaved());
         assert!(laid.saved(version + 1) && !laid.unsaved());
-        laid.change(&Job::default(), |editor, _| Ok(drop(editor.undo()))).unwrap();
+        let undo = |editor: &mut Editor, _: &Job| {
+            editor.undo().unwrap();
+            Ok(())
+        };
+        laid.change(&Job::default(), undo).unwrap();
         assert!(laid.unsaved(), "what is undone since then is a change as well");
         assert!(square(2).recovered().unsaved());
     }

@@ -71,12 +71,8 @@ impl Lanes {
     pub fn wish(&self, wish: Wish) -> bool {
         let lane = lane(&wish);
         let at = LANES.iter().position(|l| *l == lane).unwrap_or(0);
-        match self.0[at].try_send(wish) {
-            Ok(()) => true,
-            Err(TrySendError::Full(_)) => false,
-            // The tab is gone.
-            Err(TrySendError::Closed(_)) => true,
-        }
+        // A lane that is closed is one of a tab that is gone.
+        !matches!(self.0[at].try_send(wish), Err(TrySendError::Full(_)))
     }
 }
 

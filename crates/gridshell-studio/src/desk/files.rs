@@ -163,7 +163,7 @@ impl Desk {
             let numbers: Vec<u32> = back.iter().map(|b| b.1).collect();
             let written = session.settle(&numbers);
             let kept = back.iter().zip(written).filter(|b| b.1);
-            kept.for_each(|((path, _), _)| ended.remove(path));
+            kept.for_each(|((path, _), _)| Ended::remove(path));
         }
         ended.clear();
         if !ended.is_done() {

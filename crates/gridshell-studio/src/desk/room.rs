@@ -71,7 +71,9 @@ impl State {
         let (gone, kept) = self.runs.drain(..).partition(|r| surplus.contains(&r.number));
         self.runs = kept;
         let gone: Vec<Arc<Laid>> = gone;
-        gone.iter().for_each(|laid| self.no_longer(laid.number));
+        for laid in &gone {
+            self.no_longer(laid.number);
+        }
         gone
     }
 

@@ -241,7 +241,7 @@ fn nobody_waits_for_an_edit() {
     let state = tempfile::tempdir().unwrap();
     let desk = keeping(state.path());
     desk.keep(hexagon(1, Effort::Draft));
-    let [(begun, begins), (end, ended)] = [channel(), channel()];
+    let ((begun, begins), (end, ended)) = (channel::<Job>(), channel::<()>());
     let editing = {
         let desk = Arc::clone(&desk);
         std::thread::spawn(move || {
@@ -282,7 +282,7 @@ fn nobody_waits_for_an_edit() {
             done.send(()).unwrap();
         })
     };
-    told.recv_timeout(Duration::from_secs(60)).expect("somebody waits for the edit");
+    told.recv_timeout(Duration::from_mins(1)).expect("somebody waits for the edit");
     others.join().unwrap();
     assert!(job.stopped(), "it can be cancelled");
     let refused = desk.change(1, "another", |_, _| Ok(()));

@@ -118,7 +118,7 @@ impl Ended {
     }
 
     /// Clear a grid away that is kept elsewhere now.
-    pub fn remove(&self, path: &Path) {
+    pub fn remove(path: &Path) {
         // What cannot be removed is offered again.
         let _ = fs::remove_file(path);
     }
@@ -133,7 +133,7 @@ impl Ended {
     /// Clear all its grids away, damaged ones too: the user has seen what they are.
     pub fn discard(self) {
         for (_, path) in own::grids(&self.folder).unwrap_or_default() {
-            self.remove(&path);
+            Ended::remove(&path);
         }
         let Ended { folder, lock, .. } = self;
         drop(lock);

@@ -177,10 +177,10 @@ fn a_copy_of_a_surface_goes_with_its_last_grid() {
     let own = begin(state.path());
     let (left, _) = own.left(state.path());
     let (first, second) = (&left[0].grids[0].0, &left[0].grids[1].0);
-    left[0].remove(first);
+    Ended::remove(first);
     left[0].clear();
     assert!(copy.join("roof.obj").exists(), "a grid lies on it");
-    left[0].remove(second);
+    Ended::remove(second);
     left[0].clear();
     assert!(!folder.exists());
 }
