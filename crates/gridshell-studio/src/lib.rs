@@ -53,7 +53,7 @@ use tokio::sync::Notify;
 
 /// The file that a browser is opened with is removed after so long, whether the page was asked for or not: a browser
 /// that starts on a busy machine may take a while.
-const REDIRECTED: Duration = Duration::from_mins(2);
+const REDIRECTED: Duration = Duration::from_secs(120);
 
 /// How the studio is opened.
 pub struct Options {

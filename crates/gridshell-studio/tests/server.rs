@@ -226,7 +226,7 @@ async fn requests_that_say_two_things_are_refused() {
         (path.clone(), vec![&**host, &**host]),
         (path.clone(), vec![]),
     ] {
-        let hosts: String = hosts.iter().map(|h| format!("Host: {h}\r\n")).collect();
+        let hosts = hosts.iter().map(|h| format!("Host: {h}\r\n")).collect::<Vec<_>>().concat();
         let head = format!("GET {target} HTTP/1.1\r\n{hosts}Connection: close\r\n\r\n");
         let answer = up.raw(&head, b"").await;
         assert!(["400", "403"].contains(&status(&answer)), "{head}{answer}");

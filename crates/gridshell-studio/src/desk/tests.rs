@@ -282,7 +282,7 @@ fn nobody_waits_for_an_edit() {
             done.send(()).unwrap();
         })
     };
-    told.recv_timeout(Duration::from_mins(1)).expect("somebody waits for the edit");
+    told.recv_timeout(Duration::from_secs(60)).expect("somebody waits for the edit");
     others.join().unwrap();
     assert!(job.stopped(), "it can be cancelled");
     let refused = desk.change(1, "another", |_, _| Ok(()));
