@@ -2,122 +2,19 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod up;
+
 use futures_util::{SinkExt, StreamExt};
 use gridshell::io::Opening;
 use gridshell::job::Job;
-use gridshell_studio::{Options, Studio};
-use serde_json::{Value, json};
+use serde_json::json;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::TcpStream;
+use tokio_tungstenite::tungstenite::Message;
 use tokio_tungstenite::tungstenite::client::IntoClientRequest;
-use tokio_tungstenite::tungstenite::{self, Message};
-
-type Socket = tokio_tungstenite::WebSocketStream<TcpStream>;
-
-/// A server that is up.
-struct Up {
-    host: String,
-    token: String,
-    log: Arc<Mutex<Vec<String>>>,
-}
-
-async fn up() -> Up {
-    let log: Arc<Mutex<Vec<String>>> = Arc::default();
-    let lines = Arc::clone(&log);
-    let page = tempfile::tempdir().unwrap();
-    std::fs::write(page.path().join("index.html"), "the page").unwrap();
-    std::fs::write(page.path().join("main.js"), "the script").unwrap();
-    let options = Options {
-        surface: "hexagon".into(),
-        port: 0,
-        log: Arc::new(move |line: &str| lines.lock().unwrap().push(line.to_owned())),
-        page: Some(PathBuf::from(page.path())),
-        state: None,
-        report: Some(|grid| format!("{} nodes", grid.grid.xyz.len())),
-        memory_limit: None,
-    };
-    let studio = Studio::bind(options).await.unwrap();
-    let address = studio.address();
-    let mut parts = address.trim_start_matches("http://").trim_end_matches('/').split('/');
-    let up = Up { host: parts.next().unwrap().into(), token: parts.next().unwrap().into(), log };
-    tokio::spawn(studio.serve());
-    up
-}
-
-impl Up {
-    /// Send bytes as they are; the answer.
-    async fn raw(&self, request: &str, body: &[u8]) -> String {
-        let mut stream = TcpStream::connect(&self.host).await.unwrap();
-        stream.write_all(request.as_bytes()).await.unwrap();
-        // A server that refuses by the head need not read the body.
-        let _ = stream.write_all(body).await;
-        let mut answer = Vec::new();
-        let _ =
-            tokio::time::timeout(Duration::from_secs(20), stream.read_to_end(&mut answer)).await;
-        String::from_utf8_lossy(&answer).into_owned()
-    }
-
-    async fn get(&self, path: &str, host: &str, more: &str) -> String {
-        let head =
-            format!("GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n{more}\r\n");
-        self.raw(&head, b"").await
-    }
-
-    async fn post(&self, path: &str, body: &[u8]) -> String {
-        let (host, length) = (&self.host, body.len());
-        let head = format!(
-            "POST {path} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\nContent-Length: {length}\r\nConnection: close\r\n\r\n"
-        );
-        self.raw(&head, body).await
-    }
-
-    async fn connect(
-        &self,
-        token: &str,
-        origin: Option<&str>,
-    ) -> Result<Socket, tungstenite::Error> {
-        let mut request = format!("ws://{}/{token}/socket", self.host).into_client_request()?;
-        if let Some(origin) = origin {
-            request.headers_mut().insert("Origin", origin.parse().unwrap());
-        }
-        let stream = TcpStream::connect(&self.host).await?;
-        Ok(tokio_tungstenite::client_async(request, stream).await?.0)
-    }
-
-    async fn tab(&self) -> Socket {
-        self.connect(&self.token, Some(&format!("http://{}", self.host))).await.unwrap()
-    }
-
-    fn logged(&self, words: &str) -> bool {
-        self.log.lock().unwrap().iter().any(|line| line.contains(words))
-    }
-}
-
-async fn say(socket: &mut Socket, message: &Value) {
-    socket.send(Message::Text(message.to_string().into())).await.unwrap();
-}
-
-/// The next message of one of these kinds.
-async fn hear(socket: &mut Socket, kinds: &[&str]) -> Value {
-    let heard = async {
-        loop {
-            let message = socket.next().await.expect("the socket is open").expect("a message");
-            let Message::Text(text) = message else { continue };
-            let event: Value = serde_json::from_str(&text).unwrap();
-            if kinds.iter().any(|k| event["kind"] == *k) {
-                return event;
-            }
-        }
-    };
-    tokio::time::timeout(Duration::from_secs(120), heard).await.expect("an answer in time")
-}
-
-fn status(answer: &str) -> &str {
-    answer.split_whitespace().nth(1).unwrap_or("none")
-}
+use up::{generate, hear, say, status, up};
 
 #[tokio::test(flavor = "multi_thread")]
 async fn strangers_are_refused_and_logged() {
@@ -262,55 +159,6 @@ async fn half_requests_are_given_up() {
     }
     say(&mut tab, &json!({ "kind": "distance", "from": [0, 0, 0], "to": [3, 4, 0] })).await;
     assert_eq!(hear(&mut tab, &["distance"]).await["straight"], 5.0);
-}
-
-/// While the threads that runs share are busy, as in a long run, everything is answered; and a pick passes suggestions.
-#[tokio::test(flavor = "multi_thread")]
-async fn a_busy_run_holds_up_no_answers() {
-    let up = up().await;
-    let mut tab = up.tab().await;
-    hear(&mut tab, &["idle"]).await;
-    let run = generate(&up, &mut tab).await;
-    hear(&mut tab, &["idle"]).await;
-    let (begun, begins) = std::sync::mpsc::channel();
-    let ends: Vec<_> = (0..rayon::current_num_threads())
-        .map(|_| {
-            let (end, ended) = std::sync::mpsc::channel::<()>();
-            let begun = begun.clone();
-            rayon::spawn(move || {
-                let _ = begun.send(());
-                let _ = ended.recv();
-            });
-            end
-        })
-        .collect();
-    tokio::task::spawn_blocking(move || ends_begin(&begins)).await.unwrap();
-    let pick = json!({ "kind": "pick", "run": run, "question": 1, "origin": [0, 0, 9], "direction": [0, 0, -1] });
-    for (wish, answer) in [
-        (json!({ "kind": "suggest", "run": run }), "suggested"),
-        (pick, "picked"),
-        (json!({ "kind": "hover", "run": run, "nodes": [20, 21], "question": 1 }), "hovered"),
-        (json!({ "kind": "estimate", "values": {} }), "estimate"),
-        (json!({ "kind": "edit", "run": run, "edit": { "op": "relax_all" } }), "history"),
-        (json!({ "kind": "undo", "run": run }), "history"),
-        (json!({ "kind": "look", "run": run, "stage": null }), "run"),
-        (json!({ "kind": "open", "name": "dome" }), "surface"),
-    ] {
-        say(&mut tab, &wish).await;
-        hear(&mut tab, &[answer]).await;
-    }
-    for format in ["gridshell", "edits.json"] {
-        let path = format!("/{}/export?run={run}&format={format}", up.token);
-        assert_eq!(status(&up.get(&path, &up.host, "").await), "200", "{format}");
-    }
-    drop(ends);
-}
-
-/// Wait until all the shared threads are taken.
-fn ends_begin(begins: &std::sync::mpsc::Receiver<()>) {
-    for _ in 0..rayon::current_num_threads() {
-        begins.recv().unwrap();
-    }
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -462,19 +310,6 @@ async fn what_is_too_large_is_refused() {
     assert!(up.logged("larger than"));
     // Others are served as before.
     hear(&mut up.tab().await, &["hello"]).await;
-}
-
-async fn generate(up: &Up, tab: &mut Socket) -> u64 {
-    say(tab, &json!({ "kind": "generate", "values": { "effort": "draft", "edge_length": 0.8 } }))
-        .await;
-    let runs = loop {
-        let runs = hear(tab, &["runs", "fault"]).await;
-        assert_eq!(runs["kind"], "runs", "{runs} {:?}", up.log);
-        if runs["newest"].is_u64() {
-            break runs;
-        }
-    };
-    runs["newest"].as_u64().unwrap()
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -58,26 +58,6 @@ test("the address is cleaned, the cookie serves for it, and only in this browser
   await drive.kill(studio);
 });
 
-test("a browser without cookies keeps the address that works", async () => {
-  const studio = await drive.start("hexagon", "--no-autosave");
-  const context = await browser.newContext();
-  const page = await context.newPage();
-  await page.route(studio.address, async (route) => {
-    const response = await route.fetch();
-    const headers = { ...response.headers() };
-    delete headers["set-cookie"];
-    await context.clearCookies();
-    await route.fulfill({ response, headers });
-  });
-  await drive.visit(page, studio.address, errors);
-  await context.clearCookies();
-  await finished(page, await generate(page, { effort: "draft", edge_length: "1" }));
-  await page.reload();
-  await page.waitForFunction(() => window.studio?.seen.runs.length === 1, null, PATIENCE);
-  await context.close();
-  await drive.kill(studio);
-});
-
 test("the browser is opened with a file that only the user can read, and that goes", async () => {
   const folder = mkdtempSync(join(tmpdir(), "opener-"));
   const opener = join(folder, "xdg-open");
