@@ -76,7 +76,7 @@ test("a failing autosave is told, in new tabs too, and again when it works", asy
   await notice(page, "autosave").waitFor(PATIENCE);
   assert.match(
     await notice(page, "autosave").innerText(),
-    /cannot be kept against crashes: run 1: .*Save what you need/,
+    /cannot be kept against crashes: run \d+: .*Save what you need/,
   );
   await shot(page, "autosave");
   const another = await drive.open(browser, studio.address, errors);

@@ -89,7 +89,8 @@ impl Ended {
     /// A grid of it cannot be used, for this reason.
     pub fn damage(&mut self, path: &Path, reason: &str) {
         let file = path.strip_prefix(&self.folder).unwrap_or(path).display().to_string();
-        let reason = reason.replace(&path.display().to_string(), &file);
+        let named = format!("{}: ", path.display());
+        let reason = reason.strip_prefix(&named).unwrap_or(reason).to_owned();
         self.damaged.push(Damaged { file, reason });
     }
 
