@@ -1,4 +1,5 @@
-//! The project's own chores: `cargo xtask lint | test | readers | cases | bench | picture | pictures | fuzz`.
+//! The project's own chores: `cargo xtask lint | test | readers | cases | bench | picture | pictures | prove |
+//! fuzz`.
 //!
 //! Everything here builds in the dev profile, so that the dependencies are compiled once; only the chores that
 //! lay grids run the release build of the command, because they tell times or take theirs.
@@ -9,6 +10,7 @@ mod check;
 mod fuzz;
 mod laid;
 mod page;
+mod prove;
 mod quality;
 mod readers;
 mod watched;
@@ -32,6 +34,9 @@ usage: cargo xtask CHORE
                           a plan and a perspective of each of these grids into docs/gallery, and the page
                           docs/gallery.md unless only some are named
   picture SURFACE FILE    a grid on SURFACE seen from above, as a PNG
+  prove [--cases N] [--seed N] [--damaged]
+                          surfaces drawn at random (or files of them, damaged) through the command: each must give a
+                          valid grid or a refusal in words, within 10 processor seconds and 500 MB
   fuzz [READER]... [--minutes N]
                           damaged files for every reader (or these), 15 minutes each; needs the nightly
                           compiler and cargo-fuzz";
@@ -45,6 +50,7 @@ fn main() -> ExitCode {
         ["readers"] => check::readers(),
         ["cases", folder, names @ ..] => cases::run(folder.as_ref(), names),
         ["picture", surface, file] => quality::picture(surface, file.as_ref()),
+        ["prove", rest @ ..] => prove::Plan::parse(rest).and_then(|plan| prove::run(&plan)),
         ["fuzz", rest @ ..] => fuzz::Plan::parse(rest).and_then(|plan| fuzz::run(&plan)),
         ["bench", "quality", rest @ ..] => Scope::parse(rest).and_then(|s| quality::bench(&s)),
         ["pictures", rest @ ..] => Scope::parse(rest).and_then(|s| quality::gallery(&s)),

@@ -19,6 +19,8 @@ pub struct Watched {
     pub stderr: String,
     /// Time from start to end.
     pub seconds: f64,
+    /// Processor time, all threads; 0 where the system does not tell, as below.
+    pub processor: f64,
     /// Most memory in use, MB; 0 where the system does not tell (it is read from /proc).
     pub megabytes: f64,
 }
@@ -36,9 +38,12 @@ pub fn run(command: &mut Command) -> Result<Watched, String> {
         .map_err(|e| format!("{}: {e}", command.get_program().to_string_lossy()))?;
     let told = [drain(child.stdout.take()), drain(child.stderr.take())];
     let status = format!("/proc/{}/status", child.id());
+    let clock = format!("/proc/{}/stat", child.id());
     let mut megabytes = 0.0_f64;
+    let mut processor = 0.0_f64;
     let code = loop {
         megabytes = megabytes.max(peak(&status));
+        processor = processor.max(spent(&clock));
         if let Some(status) = child.try_wait().map_err(|e| e.to_string())? {
             break status.code();
         }
@@ -46,7 +51,7 @@ pub fn run(command: &mut Command) -> Result<Watched, String> {
     };
     let seconds = start.elapsed().as_secs_f64();
     let [stdout, stderr] = told.map(|t| t.join().unwrap_or_default());
-    Ok(Watched { code, stdout, stderr, seconds, megabytes })
+    Ok(Watched { code, stdout, stderr, seconds, processor, megabytes })
 }
 
 /// Read a pipe to its end beside the watching, so that the command never waits for us.
@@ -59,6 +64,14 @@ fn drain(pipe: Option<impl Read + Send + 'static>) -> thread::JoinHandle<String>
         }
         String::from_utf8_lossy(&bytes).into_owned()
     })
+}
+
+/// Processor seconds of the process so far: its own and the system's for it, in hundredths.
+fn spent(stat: &str) -> f64 {
+    let text = fs::read_to_string(stat).unwrap_or_default();
+    // Behind the name, which may hold anything, the first of the two is the twelfth field.
+    let fields = text.rsplit(')').next().unwrap_or_default().split_whitespace();
+    fields.skip(11).take(2).filter_map(|w| w.parse::<f64>().ok()).sum::<f64>() / 100.0
 }
 
 /// The most memory the process has had, MB.

@@ -161,6 +161,9 @@ pub struct Generate {
     /// One page of the whole run with pictures, a view to turn, figures and tables; opens without a network.
     #[arg(long, value_name = "FILE.html")]
     pub report: Option<PathBuf>,
+    /// Write a grid that is not valid all the same, marked as such, instead of ending with code 4.
+    #[arg(long)]
+    pub keep_invalid: bool,
     /// Print one JSON document on stdout, and nothing else there.
     #[arg(long)]
     pub json: bool,
@@ -299,6 +302,9 @@ pub struct Edit {
     pub handover: Handover,
     #[command(flatten)]
     pub alike: Alike,
+    /// Write a grid that the edits made invalid all the same, marked as such, instead of ending with code 4.
+    #[arg(long)]
+    pub keep_invalid: bool,
     /// So many more edits that would better the grid, the best first.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub suggest: usize,

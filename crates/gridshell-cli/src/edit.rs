@@ -5,10 +5,12 @@ use crate::args::Edit;
 use crate::failure::Failure;
 use crate::progress::Work;
 use crate::{handover, recipe, say};
+use gridshell::Error;
 use gridshell::edit::{Editor, Figures, Log};
 use gridshell::io::GridFile;
 use gridshell::reopen::{self, Opened};
 use gridshell::schedule::{Schedule, Tolerances};
+use gridshell::validity::Fault;
 use serde::Serialize;
 use std::fmt::Write;
 use std::fs;
@@ -51,22 +53,40 @@ pub fn run(args: &Edit, work: &Work) -> Result<Outcome, Failure> {
     let tolerances = Tolerances::from(&recipe.measure);
     let mut editor = Editor::new(Arc::new(surface), grid, recipe, edge_length);
     let before = editor.figures();
+    let faults = editor.validity(&editor.finished()).faults;
     if let (Some(log), Some(path)) = (log, &args.log) {
-        editor.replay(&log).map_err(|e| Failure::input(path, e))?;
+        editor.replay(&log, job).map_err(|e| match e {
+            Error::Stopped { .. } => Failure::from(e),
+            e => Failure::input(path, e),
+        })?;
     }
     let steps = |edits: Vec<(gridshell::edit::Edit, Figures)>| -> Vec<Step> {
         edits.into_iter().map(|(edit, after)| Step { edit, after }).collect()
     };
     let edits = steps(editor.history().map(|(e, f)| (e.clone(), f.after)).collect());
     let suggested =
-        steps(editor.suggest(args.suggest).into_iter().map(|(e, f)| (e, f.after)).collect());
+        steps(editor.suggest(args.suggest, job).into_iter().map(|(e, f)| (e, f.after)).collect());
+    // What was done is there: what remains is to write it.
+    let job = &job.after();
     let grid = editor.finished();
-    let schedule = Schedule::new(&grid, editor.surface(), &tolerances, job)?;
+    let schedule = Schedule::within(&grid, editor.surface(), &tolerances, job)?;
     let mut document = reopen::edited(&document, &editor);
     if let Some(supports) = supports {
         document.supports = supports.nodes(&grid, editor.surface())?;
     }
     document.panels.clone_from(&schedule.panels.nodes);
+    let look = editor.validity(&grid);
+    document.invalid = (!look.is_valid()).then(|| look.summary());
+    if !args.output.is_empty()
+        && !args.keep_invalid
+        && look.faults.iter().any(|f| is_new(f, &faults))
+    {
+        return Err(Failure::invalid(format!(
+            "the edits leave no valid grid: {}; take the last ones out of the log, or write it all the same with \
+             --keep-invalid",
+            look.summary()
+        )));
+    }
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
     let wrote = handover::write_all(&args.output, &file, job)?;
     let (schema, version) = ("gridshell.edit/1", env!("CARGO_PKG_VERSION"));
@@ -77,10 +97,15 @@ pub fn run(args: &Edit, work: &Work) -> Result<Outcome, Failure> {
     } else {
         say::result(&table(&before, &edits, &suggested, &wrote))?;
     }
-    for n in &notes {
+    for n in notes.iter().chain(&look.warnings()) {
         say::note(&format!("note: {n}"));
     }
-    Ok(Outcome::Done)
+    Ok(if work.job.stopped() { Outcome::Stopped } else { Outcome::Done })
+}
+
+/// Whether the grid did not have this fault before it was edited.
+fn is_new(fault: &Fault, before: &[Fault]) -> bool {
+    !before.iter().any(|f| f.kind == fault.kind && f.at == fault.at)
 }
 
 fn read_log(path: &Path) -> Result<Log, Failure> {

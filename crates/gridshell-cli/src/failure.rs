@@ -23,7 +23,7 @@ impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         let code = match &error {
             Error::Option(_) => USAGE,
-            Error::NoGrid { .. } => NO_GRID,
+            Error::NoGrid { .. } | Error::Invalid { .. } => NO_GRID,
             Error::Stopped { .. } | Error::Memory(_) => STOPPED,
             Error::Io { .. } | Error::Parse { .. } | Error::Surface(_) => INPUT,
         };
@@ -43,6 +43,11 @@ impl Failure {
             Error::Stopped { .. } | Error::Memory(_) => Failure::from(error),
             _ => Failure { code: INPUT, message: error.to_string() },
         }
+    }
+
+    /// For a grid that is not valid.
+    pub fn invalid(message: impl Display) -> Failure {
+        Failure { code: NO_GRID, message: message.to_string() }
     }
 
     pub fn input(path: &Path, message: impl Display) -> Failure {

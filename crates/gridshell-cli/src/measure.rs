@@ -9,6 +9,7 @@ use crate::{open, report, say, table};
 use gridshell::run::SurfaceSummary;
 use gridshell::schedule::Figures;
 use gridshell::stages::measure::{IrregularNode, Quality, irregular_nodes};
+use gridshell::validity::Fault;
 use serde::Serialize;
 
 /// The document of `--json`.
@@ -24,6 +25,10 @@ struct Document<'a> {
     quality: &'a Quality,
     figures: &'a Figures,
     irregular: Vec<IrregularNode>,
+    /// Whether it keeps all that is promised of every grid.
+    valid: bool,
+    faults: &'a [Fault],
+    warnings: Vec<String>,
 }
 
 pub fn run(args: &Measure, work: &Work) -> Result<Outcome, Failure> {
@@ -48,9 +53,14 @@ pub fn run(args: &Measure, work: &Work) -> Result<Outcome, Failure> {
             irregular: irregular_nodes(subject.grid),
             quality,
             figures,
+            valid: measured.validity().is_valid(),
+            faults: &measured.validity().faults,
+            warnings: measured.validity().warnings(),
         })?;
     } else {
-        say::result(&table::grid(name, quality, figures))?;
+        let warnings = measured.validity().warnings();
+        let warnings: String = warnings.iter().map(|w| format!("warning: {w}\n")).collect();
+        say::result(&(table::grid(name, quality, figures) + &warnings))?;
     }
     measured.notes().iter().for_each(|n| say::note(&format!("note: {n}")));
     Ok(Outcome::Done)

@@ -1,11 +1,20 @@
 //! The progress bar on stderr, when that is a terminal, and the job behind it.
 
 use crate::args::Limits;
+use crate::failure::Failure;
+use crate::say;
 use gridshell::job::{Job, Progress, memory};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
+
+/// The stage in which others' decoders may be at work.
+const READ: &str = "read";
+/// How long one may go on after a stop, and how often that is looked at.
+const LONG: Duration = Duration::from_millis(300);
+const LOOK: Duration = Duration::from_millis(50);
 
 /// Steps of the bar.
 const STEPS: f64 = 1000.0;
@@ -24,8 +33,10 @@ impl Work {
     /// Work with these limits.
     pub fn new(limits: &Limits) -> Work {
         let bar = bar();
-        let shown = bar.clone();
+        let (shown, reading) = (bar.clone(), Arc::new(AtomicBool::new(false)));
+        let reads = Arc::clone(&reading);
         let mut job = Job::default().with_progress(move |p: &Progress| {
+            reads.store(p.stage == READ, Ordering::Relaxed);
             if shown.message() != p.stage {
                 shown.set_message(p.stage);
             }
@@ -39,6 +50,7 @@ impl Work {
             let limit = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
             job = job.with_time_limit(limit);
         }
+        leave_where_reading_does_not_end(&job, reading);
         Work { job, bar }
     }
 
@@ -62,6 +74,27 @@ impl Work {
     pub fn told(&self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// The decoders of some formats are not ours and cannot be stopped: where one goes on long after it should have stopped,
+/// the program leaves. Nothing has been written by then.
+fn leave_where_reading_does_not_end(job: &Job, reading: Arc<AtomicBool>) {
+    let job = job.clone();
+    let watch = move || {
+        let mut late = Duration::ZERO;
+        while late < LONG {
+            std::thread::sleep(LOOK);
+            let over = reading.load(Ordering::Relaxed) && job.is_over("reading");
+            late = if over { late + LOOK } else { Duration::ZERO };
+        }
+        if let Err(error) = job.check("reading") {
+            let Failure { code, message } = Failure::from(error);
+            say::note(&format!("gridshell: {message}"));
+            std::process::exit(code.into());
+        }
+    };
+    // Without it reading goes on to its end.
+    let _ = std::thread::Builder::new().name("reading".into()).spawn(watch);
 }
 
 /// The limit of memory that is given, else the usual one, bytes.

@@ -36,6 +36,7 @@ pub fn from_args(args: &Generate, again: Option<&Recipe>, job: &Job) -> Result<R
         recipe.feature_angle_deg = angle;
     }
     recipe.smooth_input |= args.smooth_input;
+    recipe.keep_invalid |= args.keep_invalid;
     if let Some(path) = &args.guides {
         let guides = io::read_guides(path, job)?;
         recipe.guides =

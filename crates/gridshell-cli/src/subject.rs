@@ -6,7 +6,8 @@ use gridshell::job::Job;
 use gridshell::reopen::Opened;
 use gridshell::run::{Run, SurfaceSummary};
 use gridshell::schedule::{Schedule, Tolerances};
-use gridshell::stages::measure::{Quality, measure};
+use gridshell::stages::measure::{Quality, measure_within};
+use gridshell::validity::Validity;
 
 /// A grid with all that is known of it. Metres.
 #[derive(Clone, Copy)]
@@ -24,15 +25,17 @@ pub struct Measured {
     opened: Opened,
     schedule: Schedule,
     quality: Quality,
+    validity: Validity,
 }
 
 impl Measured {
     pub fn new(opened: Opened, job: &Job) -> gridshell::Result<Measured> {
         let options = &opened.recipe.measure;
-        let quality = measure(&opened.grid, &opened.surface, opened.edge_length, options, job)?;
-        let schedule =
-            Schedule::new(&opened.grid, &opened.surface, &Tolerances::from(options), job)?;
-        Ok(Measured { opened, schedule, quality })
+        let (grid, surface) = (&opened.grid, &opened.surface);
+        let quality = measure_within(grid, surface, opened.edge_length, options, job)?;
+        let schedule = Schedule::within(grid, surface, &Tolerances::from(options), job)?;
+        let validity = Validity::of(grid, surface, opened.edge_length, &quality);
+        Ok(Measured { opened, schedule, quality, validity })
     }
 
     pub fn subject(&self) -> Subject<'_> {
@@ -48,6 +51,11 @@ impl Measured {
     /// Figures of the design surface, where it is known.
     pub fn summary(&self) -> Option<&SurfaceSummary> {
         self.opened.summary.as_ref()
+    }
+
+    /// What is wrong with it.
+    pub fn validity(&self) -> &Validity {
+        &self.validity
     }
 
     /// What the user should know.

@@ -40,6 +40,9 @@ pub fn run(run: &Run) -> String {
     text += "\n";
     text += &checks(&run.quality);
     text += &alike(&run.figures);
+    if let Some(what) = run.invalid() {
+        let _ = writeln!(text, "NOT VALID: {what}");
+    }
     for warning in &run.warnings {
         let _ = writeln!(text, "warning: {warning}");
     }

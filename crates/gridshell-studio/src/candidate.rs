@@ -9,6 +9,7 @@ use gridshell::run::{Run, StageReport};
 use gridshell::schedule::{Schedule, Tolerances};
 use gridshell::stages::measure::{irregular_nodes, measure};
 use gridshell::stages::relax::relax;
+use gridshell::validity::Validity;
 use std::time::Instant;
 
 /// Candidates that are shown.
@@ -42,33 +43,34 @@ pub fn taken(laid: &Laid, index: u32, job: &Job) -> Result<Run> {
     }
     let (surface, _) = pipeline::surface(&laid.opened.model, &run.recipe, job)?;
     let options = &run.recipe.measure;
-    let end = job.finishing();
-    let judge = |grid: &Grid| measure(grid, &surface, run.edge_length, options, &end);
+    let judge = |grid: &Grid| measure(grid, &surface, run.edge_length, options);
     let stage = |name, seconds, converged, grid: &Grid| StageReport {
         name,
         seconds,
         converged,
-        quality: None,
+        quality: Some(judge(grid)),
         notes: Vec::new(),
         grid: Some(grid.clone()),
     };
-    let mut regularized = stage("regularize", 0.0, true, &grid);
-    regularized.quality = Some(judge(&grid)?);
+    let regularized = stage("regularize", 0.0, true, &grid);
     let clock = Instant::now();
     let report = relax(&surface, &mut grid, &run.recipe, job);
     if job.stopped() {
         return Err(Error::Option("it was stopped".into()));
     }
     grid.settle_exactly(&surface);
-    let mut relaxed = stage("relax", clock.elapsed().as_secs_f64(), report.converged, &grid);
-    let schedule = Schedule::new(&grid, &surface, &Tolerances::from(options), &end)?;
-    let quality = judge(&grid)?;
-    relaxed.quality = Some(quality.clone());
+    let relaxed = stage("relax", clock.elapsed().as_secs_f64(), report.converged, &grid);
+    let quality = judge(&grid);
+    let validity = Validity::of(&grid, &surface, run.edge_length, &quality);
+    pipeline::refuse_invalid(&validity, &run.recipe, run.edge_length)?;
+    let schedule = Schedule::new(&grid, &surface, &Tolerances::from(options));
     let mut candidates = run.candidates.clone();
     candidates[..=index as usize].rotate_right(1);
     Ok(Run {
         candidates,
         quality,
+        valid: validity.is_valid(),
+        faults: validity.faults,
         figures: schedule.figures.clone(),
         irregular: irregular_nodes(&grid),
         stages: vec![regularized, relaxed],

@@ -59,7 +59,7 @@ pub fn hover(run: u32, question: u32, editor: &Editor, [a, b]: [u32; 2]) -> Even
 
 /// The edits that would better the grid most.
 pub fn suggest(run: u32, editor: &Editor) -> Event {
-    let steps = editor.suggest(SUGGESTED);
+    let steps = editor.suggest(SUGGESTED, &Job::default());
     let steps = steps.into_iter().map(|(edit, effect)| step(editor, &edit, &Ok(effect))).collect();
     Event::Suggested { run, steps }
 }

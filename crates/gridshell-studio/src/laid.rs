@@ -126,15 +126,12 @@ impl Laid {
     }
 
     /// Keep a grid that was read from a file of the user's under `number`.
-    ///
-    /// # Errors
-    /// What measuring it says.
-    pub fn of_file(number: u32, read: reopen::Opened, opened: Arc<Opened>) -> Result<Laid> {
+    pub fn of_file(number: u32, read: reopen::Opened, opened: Arc<Opened>) -> Laid {
         let reopen::Opened { document, grid, surface, edge_length, recipe, notes, .. } = read;
         let surface = Arc::new(surface);
         let editor = Editor::new(Arc::clone(&surface), grid, recipe.clone(), edge_length);
-        let now = Now::of(0, number, &document, &editor, edge_length, &recipe)?;
-        Ok(Laid {
+        let now = Now::of(0, number, &document, &editor, edge_length, &recipe);
+        Laid {
             number,
             opened,
             run: None,
@@ -149,7 +146,7 @@ impl Laid {
             safe: Mutex::new(Some(0)),
             changing: AtomicBool::default(),
             used: AtomicU64::default(),
-        })
+        }
     }
 
     /// The same grid, which lies on no disk but among what an ended studio left.
@@ -276,7 +273,7 @@ impl Laid {
         work(editor, job)?;
         let (version, number) = (self.now().version + 1, self.number);
         let (length, recipe) = (self.edge_length, &self.recipe);
-        let now = Now::of(version, number, &self.document, editor, length, recipe)?;
+        let now = Now::of(version, number, &self.document, editor, length, recipe);
         *held(&self.now) = Arc::new(now);
         Ok(())
     }
@@ -308,7 +305,7 @@ impl Laid {
         let trial = self.trial_of(&now)?;
         let grid = trial.finished();
         let tolerances = Tolerances::from(&self.recipe.measure);
-        let schedule = Schedule::new(&grid, trial.surface(), &tolerances, &Job::default())?;
+        let schedule = Schedule::new(&grid, trial.surface(), &tolerances);
         let done = now.log.iter().flat_map(|log| &log.edits).map(|edit| serde_json::json!(edit));
         let edits: Vec<Value> = self.document.edits.iter().cloned().chain(done).collect();
         let panels = schedule.panels.nodes.clone();
@@ -342,11 +339,10 @@ impl Now {
         editor: &Editor,
         edge_length: f64,
         recipe: &Recipe,
-    ) -> Result<Now> {
+    ) -> Now {
         let (grid, surface, options) = (editor.finished(), editor.surface(), &recipe.measure);
-        // What is done is measured whoever cancels.
-        let quality = measure(&grid, surface, edge_length, options, &Job::default())?;
-        Ok(Now {
+        let quality = measure(&grid, surface, edge_length, options);
+        Now {
             version,
             grid: Arc::new(editor.grid().clone()),
             quality,
@@ -354,7 +350,7 @@ impl Now {
             log: Some(editor.log()),
             surface: Some(Arc::clone(editor.surface())),
             trial: OnceLock::new(),
-        })
+        }
     }
 }
 
@@ -373,7 +369,7 @@ pub mod tests {
     pub fn square(number: u32) -> Laid {
         let (grid, surface) = crate::measures::tests::square();
         let document = Document::of_grid("square", &grid);
-        let opened = Arc::new(Opened::alone(&document).unwrap());
+        let opened = Arc::new(Opened::alone(&document, &Job::default()).unwrap());
         let read = reopen::Opened {
             document,
             grid,
@@ -383,12 +379,12 @@ pub mod tests {
             recipe: Recipe::default(),
             notes: Vec::new(),
         };
-        Laid::of_file(number, read, opened).unwrap()
+        Laid::of_file(number, read, opened)
     }
 
     /// A coarse draft on the built-in hexagon, told to be of this effort.
     pub fn hexagon(number: u32, effort: Effort) -> Laid {
-        let opened = Opened::built_in("hexagon").unwrap();
+        let opened = Opened::built_in("hexagon", &Job::default()).unwrap();
         let recipe = Recipe { edge_length: Some(2.0), effort: Effort::Draft, ..Recipe::default() };
         let mut run = pipeline::generate(&opened.model, &recipe, &Job::default()).unwrap();
         run.recipe.effort = effort;

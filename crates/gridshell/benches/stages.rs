@@ -51,6 +51,7 @@ impl Size {
             &bubbles.xyz(&surface),
             0.6 * length,
             &mut fastrand::Rng::with_seed(1),
+            &Job::default(),
         );
         let mut settled = bubbles.clone();
         pack::settle(&surface, &mut settled, length, &recipe.pack, &Job::default());
@@ -117,12 +118,12 @@ fn scale(criterion: &mut Criterion) {
             Sampling { max_edge: 0.7 * length, chord_error: 2e-3 * length, corner_angle: 0.5 };
         let model = builtin::model("saddle").unwrap();
         let surface = model.surface(&sampling, &Job::default()).unwrap();
-        let flatten = || Chart::flatten(&surface, &Job::default()).unwrap();
+        let flatten = || Chart::flatten(&surface, &Job::default()).unwrap().unwrap();
         let chart = flatten();
         let mut rng = fastrand::Rng::with_seed(1);
         let pieces = pack::boundary::pieces(&surface).len();
         let lattice = pack::lattice::Lattice::draw(pieces, &mut rng);
-        let lay = || lattice.bubbles(&surface, &chart, length, 1.0, None);
+        let lay = || lattice.bubbles(&surface, &chart, length, 1.0, None, &Job::default());
         let bubbles = lay();
         let connect = || {
             triangulate::triangulate_in_chart(&surface, &chart, &bubbles, &Job::default()).unwrap()
@@ -132,7 +133,7 @@ fn scale(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group("scale");
         group.sample_size(10);
         group.bench_function(id("tessellate"), |b| {
-            b.iter(|| model.surface(&sampling, &Job::default()).unwrap())
+            b.iter(|| model.surface(&sampling, &Job::default()).unwrap());
         });
         group.bench_function(id("flatten"), |b| b.iter(flatten));
         group.bench_function(id("lay a lattice"), |b| b.iter(lay));
@@ -163,9 +164,9 @@ fn edit(criterion: &mut Criterion) {
         let surface =
             builtin::model("saddle").unwrap().surface(&sampling, &Job::default()).unwrap();
         let pieces = pack::boundary::pieces(&surface).len();
-        let chart = Chart::flatten(&surface, &Job::default()).unwrap();
+        let chart = Chart::flatten(&surface, &Job::default()).unwrap().unwrap();
         let lattice = pack::lattice::Lattice::draw(pieces, &mut fastrand::Rng::with_seed(1));
-        let bubbles = lattice.bubbles(&surface, &chart, length, 1.0, None);
+        let bubbles = lattice.bubbles(&surface, &chart, length, 1.0, None, &Job::default());
         let mut grid =
             triangulate::triangulate_in_chart(&surface, &chart, &bubbles, &Job::default()).unwrap();
         grid.settle_exactly(&surface);
@@ -182,7 +183,7 @@ fn edit(criterion: &mut Criterion) {
             b.iter(|| editor.preview(black_box(&flip)).unwrap());
         });
         group.bench_function(id("hover"), |b| b.iter(|| editor.hover(nodes[0], nodes[1])));
-        group.bench_function(id("suggest 10"), |b| b.iter(|| editor.suggest(10)));
+        group.bench_function(id("suggest 10"), |b| b.iter(|| editor.suggest(10, &Job::default())));
         let id = id("apply and undo a flip");
         group.bench_function(id, |b| {
             b.iter(|| {

@@ -42,6 +42,16 @@ pub enum Error {
         /// A length that would fit, in metres.
         edge_length: f64,
     },
+    /// A grid was made, but it is not valid, and repairing it did not help.
+    #[error("no valid grid: {message}; {advice}")]
+    Invalid {
+        /// What is wrong with it, how often and where.
+        message: String,
+        /// What to do.
+        advice: String,
+        /// All places, in metres.
+        places: Vec<[f64; 3]>,
+    },
     /// Stopped by a limit or by who asked for it, before there was a grid.
     #[error("{}", stopped(phase))]
     Stopped {

@@ -44,6 +44,7 @@ pub mod schedule;
 pub mod stages;
 pub mod structure;
 pub mod surface;
+pub mod validity;
 
 pub use error::{Error, Result};
 pub use glam::{DVec2, DVec3};

@@ -44,6 +44,9 @@ pub struct Recipe {
     /// ([`Recipe::border_weight`]). Above 0.5 rows of members follow the borders that the lattice lies nearly
     /// parallel to ([`Recipe::row_angle`]), at 1 all borders.
     pub border: f64,
+    /// Whether a grid that is not valid is given all the same, marked, instead of an error.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub keep_invalid: bool,
     /// Options of packing.
     pub pack: Pack,
     /// Options of regularizing.
@@ -444,6 +447,7 @@ impl Default for Recipe {
             guides: Vec::new(),
             anchors: Vec::new(),
             border: 0.25,
+            keep_invalid: false,
             pack: Pack::default(),
             regularize: Regularize::default(),
             relax: Relax::default(),

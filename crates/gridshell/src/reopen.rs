@@ -201,7 +201,13 @@ pub fn edited(document: &Document, editor: &Editor) -> Document {
     let supports = if whole { border } else { held };
     let done = editor.history().map(|(edit, _)| serde_json::json!(edit));
     let fresh = Document::of_grid(&document.name, &grid);
+    // No edit makes a valid grid invalid, but one may mend it.
+    let invalid = document.invalid.as_ref().and_then(|_| {
+        let look = editor.validity(&grid);
+        (!look.is_valid()).then(|| look.summary())
+    });
     Document {
+        invalid,
         places: grid.places.iter().map(|&p| p.into()).collect(),
         edits: document.edits.iter().cloned().chain(done).collect(),
         anchors: follow(&document.anchors),

@@ -8,6 +8,7 @@ use crate::recipe::{self, Recipe};
 use crate::schedule::{Figures, Schedule};
 use crate::stages::measure::{Border, IrregularNode, Quality};
 use crate::surface::{Model, Sewing, Smoothing, Surface};
+use crate::validity::{self, Fault};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -47,7 +48,11 @@ pub struct Run {
     pub figures: Figures,
     /// The irregular nodes that remain.
     pub irregular: Vec<IrregularNode>,
-    /// What the user should know: repaired input, stages that did not converge, limits that were met.
+    /// Whether the grid keeps all that is promised of every grid.
+    pub valid: bool,
+    /// What is wrong with it: nothing, unless the recipe keeps grids that are not valid.
+    pub faults: Vec<Fault>,
+    /// What the user should know: faults, repaired input, stages that did not converge, limits that were met.
     pub warnings: Vec<String>,
     /// Whether a limit or a signal stopped it early; the grid is then the best so far.
     pub stopped: bool,
@@ -57,6 +62,13 @@ pub struct Run {
     /// Its nodes, members and panels one by one.
     #[serde(skip)]
     pub schedule: Schedule,
+}
+
+impl Run {
+    /// What is wrong with the grid, in one sentence; None if it is valid.
+    pub fn invalid(&self) -> Option<String> {
+        (!self.valid).then(|| validity::summary(&self.faults))
+    }
 }
 
 /// One piece of a grid with a piece on each part of a model.

@@ -137,6 +137,9 @@ fn surface(s: &SurfaceSummary) -> String {
 fn warnings(run: Option<&Run>) -> String {
     let Some(run) = run else { return String::new() };
     let mut all: Vec<String> = run.surface.notes.iter().chain(&run.warnings).cloned().collect();
+    if let Some(what) = run.invalid() {
+        all.insert(0, format!("this grid is NOT VALID: {what}"));
+    }
     if run.stopped {
         all.push("the run was stopped early: this is the best grid so far".into());
     }

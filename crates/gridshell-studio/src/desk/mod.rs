@@ -37,6 +37,8 @@ struct State {
     runs: Vec<Arc<Laid>>,
     numbers: u32,
     going: Option<Going>,
+    /// What is being opened, or was last.
+    opening: Option<Job>,
     /// Another work that goes on, an edit, say; and on which run.
     work: Option<(u32, Job)>,
     /// The recipe of the grid that was opened last, and its number: what the form begins with.
@@ -121,7 +123,8 @@ impl Desk {
     pub fn cancel(&self) {
         let state = self.state();
         let going = state.going.iter().map(|going| &going.job);
-        going.chain(state.work.iter().map(|work| &work.1)).for_each(Job::cancel);
+        let work = state.work.iter().map(|work| &work.1);
+        going.chain(work).chain(&state.opening).for_each(Job::cancel);
     }
 
     /// Begin something that may take a while: told of when it does, until it is dropped.
@@ -150,6 +153,13 @@ impl Desk {
             Some(limit) => Job::default().with_memory_limit(limit),
             None => Job::default(),
         }
+    }
+
+    /// A job for opening something.
+    fn opening(&self) -> Job {
+        let job = self.job();
+        self.state().opening = Some(job.clone());
+        job
     }
 
     /// The next grid's number.

@@ -55,7 +55,9 @@ use crate::grid::{Grid, Place};
 use crate::job::Job;
 use crate::merit::Sums;
 use crate::recipe::Recipe;
+use crate::stages::measure::measure;
 use crate::surface::Surface;
+use crate::validity::Validity;
 use change::Change;
 use std::sync::Arc;
 use workbench::Workbench;
@@ -139,6 +141,12 @@ impl Editor {
     /// The surface that it lies on.
     pub fn surface(&self) -> &Arc<Surface> {
         &self.surface
+    }
+
+    /// What is wrong with `grid`, this editor's as it was or [as it is](Editor::finished).
+    pub fn validity(&self, grid: &Grid) -> Validity {
+        let quality = measure(grid, &self.surface, self.edge_length, &self.recipe.measure);
+        Validity::of(grid, &self.surface, self.edge_length, &quality)
     }
 
     /// The figures of the grid as it is.

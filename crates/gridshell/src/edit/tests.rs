@@ -39,7 +39,8 @@ fn start(name: &str, length: f64, guided: bool) -> (Arc<Surface>, Grid, Recipe) 
     let mut rng = fastrand::Rng::with_seed(3);
     let count = pack::interior_count(&surface, bubbles.len(), length, 1.0);
     let held = bubbles.xyz(&surface);
-    bubbles.interior = pack::scatter(&surface, count, &held, 0.6 * length, &mut rng);
+    bubbles.interior =
+        pack::scatter(&surface, count, &held, 0.6 * length, &mut rng, &Job::default());
     let recipe = Recipe { edge_length: Some(length), ..Recipe::default() };
     pack::settle(&surface, &mut bubbles, length, &recipe.pack, &crate::job::Job::default());
     let mut grid =
@@ -77,13 +78,7 @@ fn assert_sound(editor: &Editor, euler: i64) {
     editor.grid.mesh.check().expect("a manifold");
     assert_eq!(editor.grid.mesh.euler_characteristic(), euler);
     let grid = editor.finished();
-    let quality = measure(
-        &grid,
-        &editor.surface,
-        editor.edge_length,
-        &editor.recipe.measure,
-        &Job::default(),
-    );
+    let quality = measure(&grid, &editor.surface, editor.edge_length, &editor.recipe.measure);
     assert_eq!(quality.folded_panels, 0);
     assert!(quality.surface_deviation < 1e-9, "{}", quality.surface_deviation);
     assert!(quality.boundary_deviation < 1e-9, "{}", quality.boundary_deviation);
@@ -159,7 +154,7 @@ proptest! {
         let read = Log::from_json(&log.to_json()).expect("what was written");
         prop_assert_eq!(&read, &log);
         let mut again = self::editor(which);
-        again.replay(&read).expect("it fits");
+        again.replay(&read, &Job::default()).expect("it fits");
         prop_assert_eq!(&bits(&again.grid), &after);
     }
 }
@@ -249,7 +244,7 @@ fn a_log_that_does_not_fit_names_its_entry_and_changes_nothing() {
         r#"{{"schema":"gridshell.edits/1","edits":[{{"op":"split","nodes":[{a},{b}]}},{{"op":"pin","node":9999}}]}}"#
     );
     let log = Log::from_json(&text).expect("a log");
-    let error = editor.replay(&log).expect_err("no such node").to_string();
+    let error = editor.replay(&log, &Job::default()).expect_err("no such node").to_string();
     assert!(
         error.starts_with(
             "entry 2 of the log's 2 (pin 9999) does not fit the grid: there is no node 9999"
@@ -260,7 +255,7 @@ fn a_log_that_does_not_fit_names_its_entry_and_changes_nothing() {
     assert_eq!((editor.history().len(), editor.undone().len()), (0, 0));
 
     let elsewhere = self::editor(0).log();
-    let error = editor.replay(&elsewhere).expect_err("another grid").to_string();
+    let error = editor.replay(&elsewhere, &Job::default()).expect_err("another grid").to_string();
     assert!(error.starts_with("the log was made on another grid"), "{error}");
 }
 
@@ -282,7 +277,7 @@ fn logs_that_are_none_are_refused() {
 #[test]
 fn suggestions_do_what_they_say() {
     let mut editor = editor(1);
-    let suggested = editor.suggest(5);
+    let suggested = editor.suggest(5, &Job::default());
     assert!(!suggested.is_empty(), "a rough grid can be bettered");
     assert!(suggested.windows(2).all(|w| w[0].1.gain() >= w[1].1.gain()));
     let (edit, effect) = suggested[0].clone();
@@ -331,7 +326,7 @@ fn a_guide_is_followed_at_once_and_until_it_is_removed() {
     let (after, log) = (bits(&editor.grid), editor.log());
     while editor.undo().is_some() {}
     assert_eq!(bits(&editor.grid), before);
-    editor.replay(&log).expect("it fits");
+    editor.replay(&log, &Job::default()).expect("it fits");
     assert_eq!(bits(&editor.grid), after);
 }
 

@@ -46,6 +46,9 @@ pub struct Document {
     pub supports: Vec<u32>,
     /// What was edited by hand, in its order. Kept as it is.
     pub edits: Vec<serde_json::Value>,
+    /// What is wrong with the grid, where it was kept though it is not valid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub invalid: Option<String>,
 }
 
 /// A place on the surface's carrier, which surface and recipe give anew, bit for bit.
@@ -92,6 +95,7 @@ impl Document {
             anchors: Vec::new(),
             supports: Vec::new(),
             edits: Vec::new(),
+            invalid: None,
         }
     }
 
@@ -111,6 +115,7 @@ impl Document {
             places: grid.places.iter().map(|&p| p.into()).collect(),
             anchors: run.recipe.anchors.iter().filter_map(anchor).collect(),
             supports,
+            invalid: run.invalid(),
             ..Document::of_grid(&run.surface.name, grid)
         }
     }

@@ -4,6 +4,9 @@ use super::Document;
 use crate::schedule::Schedule;
 use crate::structure::Structure;
 
+/// Nodes at the border no farther apart than this, over the mean member length, are one joint.
+const SAME_JOINT: f64 = 1e-6;
+
 /// A grid to be written. Metres.
 #[derive(Clone, Copy, Debug)]
 pub struct GridFile<'a> {
@@ -24,9 +27,12 @@ impl GridFile<'_> {
             (Some(length), Some(seed)) => format!("edge length {length} m, seed {seed}, "),
             _ => String::new(),
         };
+        let invalid = document.invalid.as_ref().map_or(String::new(), |what| {
+            format!("NOT VALID: {}; ", what.replace(char::is_control, " "))
+        });
         [
             format!("gridshell {}: grid on {name}", document.version),
-            format!("{run}lengths in metres"),
+            format!("{invalid}{run}lengths in metres"),
         ]
     }
 
@@ -36,6 +42,30 @@ impl GridFile<'_> {
         self.header().join(", ").chars().map(plain).collect()
     }
 
+    /// The joint that each node is part of, named by its first node: where borders touch in a point, the surface has a
+    /// node on either side, and a structure one joint.
+    pub(super) fn joints(&self) -> Vec<u32> {
+        let xyz = &self.schedule.nodes.xyz;
+        let close = SAME_JOINT * self.schedule.figures.length.spread.mean;
+        let mut order: Vec<u32> = (0..xyz.len() as u32).collect();
+        order.sort_by(|&a, &b| xyz[a as usize].x.total_cmp(&xyz[b as usize].x).then(a.cmp(&b)));
+        let mut joints: Vec<u32> = (0..xyz.len() as u32).collect();
+        // Only borders touch.
+        let border = &self.schedule.nodes.boundary;
+        order.retain(|&v| border[v as usize]);
+        for (i, &a) in order.iter().enumerate() {
+            let p = xyz[a as usize];
+            let beside = order[i + 1..].iter().take_while(|&&b| xyz[b as usize].x - p.x <= close);
+            for &b in beside {
+                if xyz[b as usize].distance(p) <= close {
+                    let joint = joints[a as usize].min(joints[b as usize]);
+                    (joints[a as usize], joints[b as usize]) = (joint, joint);
+                }
+            }
+        }
+        joints
+    }
+
     /// Whether each node is supported.
     pub(super) fn supported(&self) -> Vec<bool> {
         let mut supported = vec![false; self.document.nodes.len()];
@@ -43,5 +73,14 @@ impl GridFile<'_> {
             supported[v as usize] = true;
         }
         supported
+    }
+
+    /// Whether each of [these joints](GridFile::joints), at its first node, is supported.
+    pub(super) fn held(&self, joints: &[u32]) -> Vec<bool> {
+        let mut held = vec![false; joints.len()];
+        for &v in &self.document.supports {
+            held[joints[v as usize] as usize] = true;
+        }
+        held
     }
 }

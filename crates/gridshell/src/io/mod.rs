@@ -1,5 +1,6 @@
 //! Readers and writers, one file per format, and surfaces by name.
 
+mod bezier;
 mod choice;
 mod compas;
 mod csv;
@@ -32,6 +33,7 @@ pub mod step;
 mod stitch;
 mod stl;
 mod text;
+mod thin;
 mod turn;
 mod unit;
 mod values;
@@ -59,6 +61,7 @@ use std::path::Path;
 
 /// What a stop in here is told as.
 pub(crate) const READING: &str = "reading";
+const WRITING: &str = "writing";
 
 /// Extensions of the mesh formats.
 pub(crate) const MESH_FORMATS: &str = "obj, ply, stl, off, gltf, glb, json";
@@ -209,7 +212,8 @@ pub fn read_mesh_with(path: &Path, opening: &Opening, job: &Job) -> Result<Polyg
     let mesh = weld::weld(path, soup?, opening, job);
     job.check(READING)?;
     let mut mesh = mesh?;
-    mesh.source = Source::of_format(&extension(path).to_uppercase());
+    let losses = std::mem::take(&mut mesh.source.losses);
+    mesh.source = Source { losses, ..Source::of_format(&extension(path).to_uppercase()) };
     Ok(mesh)
 }
 

@@ -5,6 +5,7 @@
 use super::GridFile;
 use super::xlsx::Cell::{Blank, Made, Number, Text};
 use super::xlsx::{Cell, MOST_ROWS, Workbook};
+use crate::job::Job;
 use crate::schedule::Schedule;
 use crate::structure::{Material, Shape, Structure};
 
@@ -12,7 +13,7 @@ use crate::structure::{Material, Shape, Structure};
 const SECTION: &str = "CS1";
 
 /// The file's bytes; the error says why it cannot be.
-pub(super) fn encode(grid: &GridFile) -> Result<Vec<u8>, String> {
+pub(super) fn encode(grid: &GridFile, job: &Job) -> Result<Vec<u8>, String> {
     if grid.schedule.members.ends.len() >= MOST_ROWS {
         return Err(format!(
             "{} members: a sheet holds {} rows; write another format, or a coarser grid",
@@ -20,15 +21,16 @@ pub(super) fn encode(grid: &GridFile) -> Result<Vec<u8>, String> {
             MOST_ROWS - 1
         ));
     }
-    let mut book = Workbook::default();
+    let mut book = Workbook::new(job);
     project(&mut book, grid);
     model(&mut book, grid);
     materials(&mut book, grid);
     sections(&mut book, grid.structure);
-    nodes(&mut book, grid.schedule);
-    members(&mut book, grid);
-    panels(&mut book, grid);
-    supports(&mut book, grid);
+    let joints = grid.joints();
+    nodes(&mut book, grid.schedule, &joints);
+    members(&mut book, grid, &joints);
+    panels(&mut book, grid, &joints);
+    supports(&mut book, grid, &joints);
     book.pack().map_err(|e| format!("the workbook cannot be packed: {e}"))
 }
 
@@ -145,15 +147,16 @@ fn sections(book: &mut Workbook, structure: &Structure) {
     book.row(&cells);
 }
 
-fn nodes(book: &mut Workbook, schedule: &Schedule) {
+fn nodes(book: &mut Workbook, schedule: &Schedule, joints: &[u32]) {
     let columns = ["Name", "Coordinate X [m]", "Coordinate Y [m]", "Coordinate Z [m]"];
     header(book, "StructuralPointConnection", &columns);
-    for (v, p) in schedule.nodes.xyz.iter().enumerate() {
+    let own = |v: usize| joints[v] == v as u32;
+    for (v, p) in schedule.nodes.xyz.iter().enumerate().filter(|(v, _)| own(*v)) {
         book.row(&[Made(format!("N{v}")), Number(p.x), Number(p.y), Number(p.z)]);
     }
 }
 
-fn members(book: &mut Workbook, grid: &GridFile) {
+fn members(book: &mut Workbook, grid: &GridFile, joints: &[u32]) {
     let columns = [
         "Name",
         "Type",
@@ -179,7 +182,8 @@ fn members(book: &mut Workbook, grid: &GridFile) {
     ];
     header(book, "StructuralCurveMember", &columns);
     let members = &grid.schedule.members;
-    for (k, [a, b]) in members.ends.iter().enumerate() {
+    for (k, ends) in members.ends.iter().enumerate() {
+        let [a, b] = ends.map(|v| joints[v as usize]);
         let n = members.normal[k];
         let cells = [
             Made(format!("B{k}")),
@@ -208,7 +212,7 @@ fn members(book: &mut Workbook, grid: &GridFile) {
     }
 }
 
-fn panels(book: &mut Workbook, grid: &GridFile) {
+fn panels(book: &mut Workbook, grid: &GridFile, joints: &[u32]) {
     let columns = [
         "Name",
         "Type",
@@ -232,7 +236,7 @@ fn panels(book: &mut Workbook, grid: &GridFile) {
     header(book, "StructuralSurfaceMember", &columns);
     let Schedule { panels, nodes, .. } = grid.schedule;
     for (k, t) in panels.nodes.iter().enumerate() {
-        let [a, b, c] = *t;
+        let [a, b, _] = *t;
         let x = (nodes.xyz[b as usize] - nodes.xyz[a as usize]).normalize_or_zero();
         let cells = [
             Made(format!("S{k}")),
@@ -241,7 +245,7 @@ fn panels(book: &mut Workbook, grid: &GridFile) {
             Text("Constant"),
             Number(grid.structure.pane_mm),
             Text("Centre"),
-            Made(format!("N{a};N{b};N{c}")),
+            Made(t.map(|v| format!("N{}", joints[v as usize])).join(";")),
             Text("Line;Line;Line"),
             Number(panels.area[k]),
             Made(format!("panel {}", panels.group[k])),
@@ -258,10 +262,11 @@ fn panels(book: &mut Workbook, grid: &GridFile) {
     }
 }
 
-fn supports(book: &mut Workbook, grid: &GridFile) {
+fn supports(book: &mut Workbook, grid: &GridFile, joints: &[u32]) {
     let columns = ["Name", "Type", "Node", "ux", "uy", "uz", "fix", "fiy", "fiz"];
     header(book, "StructuralPointSupport", &columns);
-    for (k, v) in grid.document.supports.iter().enumerate() {
+    let supported = grid.held(joints);
+    for (k, v) in (0..supported.len()).filter(|&v| supported[v]).enumerate() {
         let (held, free) = ("Rigid", "Free");
         let cells = [
             Made(format!("Sn{k}")),

@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::job::Job;
 use glam::DVec3;
+use std::iter::Enumerate;
 use std::path::Path;
 use std::str::FromStr;
 
@@ -18,17 +19,33 @@ pub(super) struct Line<'a> {
 
 /// The lines of a text that are not blank once their comment is cut off at `#`.
 /// They end early where the job is over, which the caller is to check.
-pub(super) fn lines<'a>(
+pub(super) fn lines<'a>(path: &'a Path, text: &'a str, job: &'a Job) -> Lines<'a> {
+    Lines { path, job, lines: text.lines().enumerate() }
+}
+
+/// What [`lines`] gives.
+#[derive(Clone)]
+pub(super) struct Lines<'a> {
     path: &'a Path,
-    text: &'a str,
     job: &'a Job,
-) -> impl Iterator<Item = Line<'a>> {
-    let cut = |line: &'a str| line.split('#').next().unwrap_or_default().trim();
-    text.lines()
-        .take_while(|_| !job.is_over("reading"))
-        .enumerate()
-        .map(move |(k, line)| Line { path, number: k + 1, text: cut(line) })
-        .filter(|line| !line.text.is_empty())
+    lines: Enumerate<std::str::Lines<'a>>,
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = Line<'a>;
+
+    fn next(&mut self) -> Option<Line<'a>> {
+        loop {
+            if self.job.is_over("reading") {
+                return None;
+            }
+            let (k, line) = self.lines.next()?;
+            let text = line.split('#').next().unwrap_or_default().trim();
+            if !text.is_empty() {
+                return Some(Line { path: self.path, number: k + 1, text });
+            }
+        }
+    }
 }
 
 impl<'a> Line<'a> {

@@ -2,6 +2,7 @@
 //! [`weld`](super::weld) turns into a surface.
 
 use super::LengthUnit;
+use crate::surface::Loss;
 use glam::DVec3;
 
 /// A soup of faces in the file's own unit.
@@ -13,6 +14,8 @@ pub(super) struct Soup {
     pub faces: Vec<Vec<u32>>,
     /// What was skipped, for the user.
     pub notes: Vec<String>,
+    /// What could not be taken.
+    pub losses: Vec<Loss>,
     /// The unit that the file states.
     pub unit: Option<LengthUnit>,
     /// How exactly the file holds coordinates.

@@ -5,6 +5,7 @@ use super::grid_file::GridFile;
 use super::soup::{Digits, Soup};
 use super::{LengthUnit, file, scan, text, weld};
 use crate::error::Result;
+use crate::io::WRITING;
 use crate::job::Job;
 use glam::{DVec3, Vec3};
 use std::path::Path;
@@ -125,7 +126,7 @@ fn note_precision(soup: &mut Soup) {
 }
 
 /// The grid as binary STL; the format has no place for members, and 80 letters for the rest.
-pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
+pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     // It must not begin with `solid`, which marks the text form.
     let document = grid.document;
     let seed = document.seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
@@ -133,7 +134,8 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
     let mut out: Vec<u8> = title.bytes().chain(std::iter::repeat(b' ')).take(80).collect();
     let panels = &grid.schedule.panels;
     out.extend((panels.nodes.len() as u32).to_le_bytes());
-    for (t, normal) in panels.nodes.iter().zip(&panels.normal) {
+    for (t, normal) in panels.nodes.iter().zip(&panels.normal).take_while(|_| !job.is_over(WRITING))
+    {
         let corners = t.map(|v| grid.schedule.nodes.xyz[v as usize]);
         for p in [*normal, corners[0], corners[1], corners[2]] {
             for c in p.as_vec3().to_array() {

@@ -11,6 +11,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
+mod odd;
+
 /// A file of this name that is removed at the end of the test.
 struct Scratch(PathBuf);
 
@@ -46,7 +48,7 @@ struct Made {
 impl Made {
     fn new(xyz: &[DVec3], panels: &[[u32; 3]]) -> Made {
         let (grid, surface) = Grid::alone("made", xyz.to_vec(), panels).expect("a manifold");
-        let schedule = Schedule::new(&grid, &surface, &Tolerances::default(), &Job::default());
+        let schedule = Schedule::new(&grid, &surface, &Tolerances::default());
         let supports = Supports::Boundary.nodes(&grid, &surface).expect("a boundary");
         let document =
             Document { seed: Some(1), supports, ..Document::of_grid("made, seed 1", &grid) };
@@ -55,7 +57,7 @@ impl Made {
 
     fn write(&self, path: &Path) {
         let Made { document, schedule, structure } = self;
-        write(path, &GridFile { document, schedule, structure }).expect("written");
+        write(path, &GridFile { document, schedule, structure }, &Job::default()).expect("written");
     }
 }
 
@@ -638,17 +640,19 @@ fn a_grid_file_reads_back_to_the_last_bit() {
             .document
     };
     document.nodes = xyz.iter().map(DVec3::to_array).collect();
-    let file = Scratch::new("again.gridshell", native::encode(&document));
+    let file = Scratch::new("again.gridshell", native::encode(&document, &Job::default()));
     let back = read_document(&file.0, &Job::default()).expect("a grid file");
     assert_eq!(back, document);
     assert!(back.nodes[0][1].is_sign_negative());
-    assert_eq!(native::encode(&back), fs::read(&file.0).expect("readable"));
+    assert_eq!(native::encode(&back, &Job::default()), fs::read(&file.0).expect("readable"));
 }
 
 #[test]
 fn grid_files_that_are_none_are_refused_with_where() {
-    let good =
-        native::encode(&Made::new(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]]).document);
+    let good = native::encode(
+        &Made::new(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]]).document,
+        &Job::default(),
+    );
     let good = String::from_utf8(good).expect("JSON");
     for (from, to, told) in [
         ("gridshell.grid/1", "gridshell.grid/9", "schema: its schema is `gridshell.grid/9`"),

@@ -1,12 +1,12 @@
 //! The door every mesh comes through: from a soup of faces to an oriented manifold in metres.
 //!
 //! In turn: check the coordinates, merge vertices at the same place, leave out small pieces far away, drop
-//! degenerate and repeated faces, join T-junctions, cut off slivers on edges with more than two faces and refuse the others, turn
-//! neighbours to agree, choose the outside, part pieces that touch in one vertex, and drop unused vertices. What
-//! was done is told in the notes.
+//! degenerate, repeated and thin faces, join T-junctions, cut off slivers on edges with more than two faces and refuse
+//! the others, turn neighbours to agree, choose the outside, part pieces that touch in one vertex, and drop unused
+//! vertices. What was done is told in the notes.
 
 use super::soup::Soup;
-use super::{LengthUnit, Opening, READING, far, file, fins, merge, stitch, turn};
+use super::{LengthUnit, Opening, READING, far, file, fins, merge, stitch, thin, turn};
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::surface::nurbs::FARTHEST;
@@ -47,6 +47,7 @@ pub(super) struct Work {
 /// surface has one side only.
 pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening, job: &Job) -> Result<PolygonMesh> {
     let digits = soup.digits;
+    let losses = soup.losses.clone();
     if soup.faces.is_empty() {
         return Err(Error::Surface(no_faces(path, soup.points.len())));
     }
@@ -66,6 +67,11 @@ pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening, job: &Job) -> Res
     }
     check_area(path, &work)?;
     job.check(READING)?;
+    let count = work.faces.len();
+    thin::drop_thin(&mut work, tolerance);
+    if work.faces.is_empty() {
+        return Err(no_area(path, count));
+    }
     stitch::stitch(&mut work, tolerance);
     job.check(READING)?;
     fins::cut(path, &mut work)?;
@@ -82,7 +88,7 @@ pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening, job: &Job) -> Res
         points,
         faces,
         notes,
-        source: Source::default(),
+        source: Source { losses, ..Source::default() },
         smoothing: None,
     })
 }
@@ -177,7 +183,7 @@ impl Work {
     }
 
     /// As [`Work::drop_faces`], with a note that tells the first.
-    fn drop_noted(&mut self, gone: &[bool], what: &str) {
+    pub fn drop_noted(&mut self, gone: &[bool], what: &str) {
         let Some(first) = gone.iter().position(|&g| g) else { return };
         let count = gone.iter().filter(|&&g| g).count();
         let number = self.number(first as u32);
@@ -202,9 +208,12 @@ fn check_area(path: &Path, work: &Work) -> Result<()> {
     if area > NO_AREA * (high - low).length_squared() {
         return Ok(());
     }
-    let count = work.faces.len();
-    let message = format!("{}: the {count} faces have no area: they lie on a line", path.display());
-    Err(Error::Surface(message))
+    Err(no_area(path, work.faces.len()))
+}
+
+fn no_area(path: &Path, count: usize) -> Error {
+    let path = path.display();
+    Error::Surface(format!("{path}: the {count} faces have no area: they lie on a line"))
 }
 
 fn unit_note(stated: Option<LengthUnit>, wanted: Option<LengthUnit>) -> Option<String> {

@@ -18,7 +18,7 @@ use stop::Stop;
 
 /// One progress message.
 pub struct Progress<'a> {
-    /// What is done: first `read`, `sew`, `surface`, `fix`, then a stage as in the output (`pack`, `triangulate`,
+    /// What is done: first `read`, `sew`, `surface`, `fix`, `flatten`, then a stage as in the output (`pack`, `triangulate`,
     /// `regularize`, `relax`), then `measure`, `write`.
     pub stage: &'static str,
     /// Share of the stage that is done, 0 to 1; candidates at work side by side tell their own.

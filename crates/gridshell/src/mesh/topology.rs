@@ -249,8 +249,16 @@ impl Mesh {
 /// open. None when they do not form a single fan.
 fn chain_up(steps: &[(u32, u32)]) -> Option<(Ring, bool)> {
     let first = steps.first()?;
+    // Sorted, as hubs have thousands of neighbours.
+    let mut onward: SmallVec<[(u32, u32); 8]> = steps.into();
+    onward.sort_unstable();
+    if onward.windows(2).any(|w| w[0].0 == w[1].0) {
+        return None;
+    }
+    let mut reached: Ring = steps.iter().map(|s| s.1).collect();
+    reached.sort_unstable();
     // An open fan begins with the neighbour that no triangle leads to.
-    let mut starts = steps.iter().filter(|s| !steps.iter().any(|o| o.1 == s.0));
+    let mut starts = steps.iter().filter(|s| reached.binary_search(&s.0).is_err());
     let start = starts.next();
     if starts.next().is_some() {
         return None;
@@ -261,12 +269,7 @@ fn chain_up(steps: &[(u32, u32)]) -> Option<(Ring, bool)> {
     let mut at = begin;
     for _ in 0..steps.len() {
         ring.push(at);
-        let here = at;
-        let mut onward = steps.iter().filter(|s| s.0 == here);
-        at = onward.next()?.1;
-        if onward.next().is_some() {
-            return None;
-        }
+        at = onward[onward.binary_search_by_key(&at, |s| s.0).ok()?].1;
     }
     if open {
         ring.push(at);

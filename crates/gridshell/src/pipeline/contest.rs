@@ -8,9 +8,11 @@ use crate::job::Job;
 use crate::merit::Sums;
 use crate::recipe::{Recipe, RegularizeMethod, RelaxMethod};
 use crate::run::CandidateReport;
-use crate::stages::measure::{Border, bridging_members};
+use crate::stages::measure::{Border, bridging_members, is_folded};
 use crate::stages::{regularize, relax, triangulate};
 use crate::surface::Surface;
+use crate::validity::NEAREST;
+use glam::DVec3;
 use rayon::prelude::*;
 
 /// The first search's share of the time that regularizing takes; about, for progress only.
@@ -33,7 +35,7 @@ pub struct Candidate {
     merit: f64,
 }
 
-/// The candidate that won.
+/// A candidate that was relaxed to the end.
 pub struct Winner {
     /// Place of its start in the list.
     pub start: usize,
@@ -45,8 +47,10 @@ pub struct Winner {
     pub grid: Grid,
     /// What relaxing did.
     pub relaxed: relax::Report,
-    flaws: usize,
-    merit: f64,
+    /// How many members and panels it has that no valid grid has.
+    pub flaws: usize,
+    /// By what it is ranked among those.
+    pub merit: f64,
 }
 
 /// Regularize every triangulated start. The best first; those of the search that came through all heats lead.
@@ -120,20 +124,20 @@ fn spans(recipe: &Recipe, candidates: usize) -> Vec<[f64; 2]> {
     spans
 }
 
-/// Relax the candidates that came furthest; the best wins. `None` without any.
+/// Relax the candidates that came furthest; the best first.
 pub fn relax(
     surface: &Surface,
     candidates: &[Candidate],
     length: f64,
     recipe: &Recipe,
     job: &Job,
-) -> Option<Winner> {
-    let furthest = candidates.first()?.heats;
+) -> Vec<Winner> {
+    let Some(furthest) = candidates.first().map(|c| c.heats) else { return Vec::new() };
     // Of a job that was stopped nobody waits for the others.
     let many = if job.stopped() { 1 } else { FINALISTS };
     let finalists: Vec<&Candidate> =
         candidates.iter().take_while(|c| c.heats == furthest).take(many).collect();
-    let relaxed: Vec<Winner> = finalists
+    let mut relaxed: Vec<Winner> = finalists
         .into_par_iter()
         .flat_map_iter(|c| {
             let small = c.grid.mesh.vertex_count() <= MOST_WITH_ENDS;
@@ -152,7 +156,7 @@ pub fn relax(
                     start: c.start,
                     before: c.grid.clone(),
                     regularized: c.report,
-                    flaws: bridging_members(&grid, surface, length),
+                    flaws: flaws(&grid, surface, length),
                     merit: sums.merit(recipe.measure.lambda),
                     grid,
                     relaxed,
@@ -160,9 +164,19 @@ pub fn relax(
             })
         })
         .collect();
-    // The first of equals: candidates come best first.
-    let better = |a: &Winner, b: &Winner| b.flaws.cmp(&a.flaws).then(a.merit.total_cmp(&b.merit));
-    relaxed.into_iter().rev().max_by(better)
+    // A stable sort: of equals the first, as candidates come best first.
+    relaxed.sort_by(|a, b| a.flaws.cmp(&b.flaws).then(b.merit.total_cmp(&a.merit)));
+    relaxed
+}
+
+/// Members and panels that no valid grid has.
+fn flaws(grid: &Grid, surface: &Surface, length: f64) -> usize {
+    let normals: Vec<DVec3> = grid.places.iter().map(|p| p.normal(surface)).collect();
+    let folded = |t: &[u32; 3]| is_folded(grid, |v| normals[v as usize], *t);
+    let short = |&(a, b): &(u32, u32)| grid.scaled_length(surface, a, b) < NEAREST * length;
+    bridging_members(grid, surface, length)
+        + grid.mesh.triangles().filter(folded).count()
+        + grid.mesh.edges().filter(short).count()
 }
 
 /// Candidates that are relaxed to the end.

@@ -9,27 +9,36 @@ mod contest;
 mod effort;
 mod narrow;
 mod parts;
+mod repair;
 mod smoothing;
 mod starts;
 mod symmetry;
+mod verdict;
 mod wishes;
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::job::{Job, Picture};
+use crate::job::Job;
 use crate::recipe::{Recipe, Symmetry};
 use crate::run::{CandidateReport, Run, SCHEMA, StageReport, SurfaceSummary};
 use crate::schedule::{Schedule, Tolerances};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
 use crate::surface::{Model, Ruler, Sampling, Surface, builtin};
+use crate::validity::Validity;
 use rayon::prelude::*;
 pub use smoothing::smoothed;
 use starts::{Start, Starts};
 use std::time::Instant;
+use verdict::Verdict;
+pub use verdict::check as refuse_invalid;
 
 /// Chord error of the carrier over l0. Nodes end on the exact surface; until then they may be this far off.
 const CARRIER_CHORD: f64 = 2e-3;
+/// Memory that a run takes for each node, bytes: less than what was seen, so that nothing is refused that would go.
+const BYTES_A_NODE: f64 = 1500.0;
+/// Of a run that was stopped, larger grids of the stages before the last are not measured: it is to end within a second.
+const MOST_MEASURED_LATE: usize = 20_000;
 /// Nodes of a grid whose edge length nobody gave.
 const SENSIBLE_NODES: usize = 1000;
 
@@ -37,7 +46,8 @@ const SENSIBLE_NODES: usize = 1000;
 ///
 /// # Errors
 /// [`Error::Option`] for a recipe that makes no sense, [`Error::Surface`] for a model that is no surface or has
-/// several parts of which the recipe chooses none, [`Error::NoGrid`] where no valid grid of this edge length exists.
+/// several parts of which the recipe chooses none, [`Error::NoGrid`] and
+/// [`Error::Invalid`] where no valid grid of this edge length exists or was found.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
     parts::generate(&*smoothed(model, recipe, job)?, recipe, job)
@@ -46,6 +56,7 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
 /// Lay a grid on a model of one part; the surface that it was laid on is given too.
 fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
     let Scale { length, nodes } = scale(model, recipe, job)?;
+    job.reserve(nodes * BYTES_A_NODE, &format!("a grid of about {nodes:.0} nodes"))?;
     let make = |l: f64| model.surface(&sampling(l, nodes, recipe), job);
     let (surface, mut fixed) = wishes::surface(recipe, length, make, job)?;
     let size = Scale { length, nodes };
@@ -88,11 +99,11 @@ fn lay(
 ) -> Result<Run> {
     let budget = effort::budgeted(recipe, nodes);
     let mut stages = Vec::new();
-    // A grid that is there is finished and told, whatever the job.
-    let end = job.finishing();
-    let judge = |grid: &Grid| measure(grid, surface, length, &recipe.measure, &end);
-    let judge_on_the_way =
-        |grid: &Grid| if job.stopped() { Ok(None) } else { judge(grid).map(Some) };
+    let judge = |grid: &Grid| measure(grid, surface, length, &recipe.measure);
+    let judge_on_the_way = |grid: &Grid| {
+        let skipped = job.stopped() && grid.xyz.len() > MOST_MEASURED_LATE;
+        (!skipped).then(|| judge(grid))
+    };
 
     let clock = Instant::now();
     let Starts { starts, notes } = starts::starts(surface, length, &budget, job)?;
@@ -102,7 +113,7 @@ fn lay(
     let triangulated: Vec<(Grid, triangulate::Report)> = starts
         .par_iter()
         .map(|start| match &start.grid {
-            Some(grid) => Ok((grid.clone(), triangulate::Report::default())),
+            Some(connected) => Ok(connected.clone()),
             None => triangulate::triangulate(surface, &start.bubbles, job),
         })
         .collect::<Result<_>>()?;
@@ -112,7 +123,10 @@ fn lay(
     let candidates = contest::regularize(surface, &starts, &triangulated, length, &budget, job);
     let regularized_in = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
-    let Some(winner) = contest::relax(surface, &candidates, length, &budget, job) else {
+    let relaxed = contest::relax(surface, &candidates, length, &budget, job);
+    let Some(Verdict { winner, quality, validity, repaired }) =
+        verdict::soundest(surface, relaxed, length, &budget, job)
+    else {
         return Err(Error::Surface("the surface has no room for a single node".into()));
     };
     let table = contest::table(candidates, winner.start, &starts, recipe);
@@ -123,8 +137,7 @@ fn lay(
     let mut warnings = fixed;
     warnings.extend(self::warnings(surface, bubbles.len(), report));
     // Bubbles have no members yet: what is measured, as in the paper's Table 3, is their Delaunay grid.
-    job.progress("measure", 0.0, Picture::None);
-    let packed_quality = judge_on_the_way(grid)?;
+    let packed_quality = judge_on_the_way(grid);
     stages.push(StageReport {
         name: "pack",
         seconds: packed,
@@ -136,34 +149,35 @@ fn lay(
     stages.push(StageReport {
         name: "triangulate",
         seconds: triangulated_in,
-        converged: true,
+        converged: !report.work.cut_short,
         quality: packed_quality,
-        notes: Vec::new(),
+        notes: report.work.note().into_iter().collect(),
         grid: Some(exact(grid.clone(), surface)),
     });
     stages.push(StageReport {
         name: "regularize",
         seconds: regularized_in,
         converged: winner.regularized.converged,
-        quality: judge_on_the_way(&winner.before)?,
+        quality: judge_on_the_way(&winner.before),
         notes: vec![winner.regularized.to_string()],
         grid: Some(exact(winner.before, surface)),
     });
-    let grid = exact(winner.grid, surface);
-    let quality = judge(&grid)?;
+    let grid = winner.grid;
     stages.push(StageReport {
         name: "relax",
         seconds: relaxed_in,
         converged: winner.relaxed.converged,
         quality: Some(quality.clone()),
-        notes: vec![format!(
+        notes: std::iter::once(format!(
             "{} steps, last move {:.1e} l0",
             winner.relaxed.steps, winner.relaxed.last_move
-        )],
+        ))
+        .chain(repaired)
+        .collect(),
         grid: Some(grid.clone()),
     });
     warnings.extend(narrow::warnings(surface, &grid, length));
-    finish(model, surface, recipe, length, table, stages, warnings, quality, grid, job)
+    finish(model, surface, recipe, length, table, stages, warnings, quality, validity, grid, job)
 }
 
 #[expect(clippy::too_many_arguments, reason = "the parts of a run, gathered once")]
@@ -176,12 +190,15 @@ fn finish(
     stages: Vec<StageReport>,
     warnings: Vec<String>,
     quality: Quality,
+    validity: Validity,
     grid: Grid,
     job: &Job,
 ) -> Result<Run> {
-    check(surface, &grid, &quality, length)?;
-    let schedule =
-        Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure), &job.finishing())?;
+    verdict::check(&validity, recipe, length)?;
+    let mut warnings = warnings;
+    warnings.extend(validity.warnings());
+    warnings.extend(verdict::node_count(recipe, quality.nodes));
+    let schedule = Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure));
     Ok(Run {
         schema: SCHEMA,
         version: env!("CARGO_PKG_VERSION"),
@@ -197,28 +214,13 @@ fn finish(
         irregular: irregular_nodes(&grid),
         quality,
         figures: schedule.figures.clone(),
+        valid: validity.is_valid(),
+        faults: validity.faults,
         warnings,
         stopped: job.stopped(),
         grid,
         schedule,
     })
-}
-
-/// What is promised of every grid: a manifold of the surface's Euler characteristic.
-fn check(surface: &Surface, grid: &Grid, quality: &Quality, length: f64) -> Result<()> {
-    let flaw = grid.mesh.check().err().or_else(|| {
-        let wanted = surface.euler_characteristic();
-        let got = quality.euler_characteristic;
-        (got != wanted).then(|| format!("Euler characteristic {got}, but the surface has {wanted}"))
-    });
-    match flaw {
-        None => Ok(()),
-        Some(message) => Err(Error::NoGrid {
-            at: grid.xyz.first().copied().unwrap_or_default().to_array(),
-            message,
-            edge_length: 0.5 * length,
-        }),
-    }
 }
 
 fn exact(mut grid: Grid, surface: &Surface) -> Grid {
@@ -237,6 +239,12 @@ fn warnings(surface: &Surface, wanted: usize, report: &triangulate::Report) -> V
             )
         })
         .collect();
+    if report.work.cut_short {
+        warnings.push(
+            "the surface's own triangles are so thin that connecting nodes was cut short: repair or simplify it, or ask for longer members"
+                .into(),
+        );
+    }
     if wanted < 4 * surface.loops.len() {
         warnings.push("the wanted length is large for this surface; expect a coarse grid".into());
     }

@@ -3,7 +3,7 @@
 //! Each part gets a grid of its own, of the same edge length, one after the other; then they stand side by side
 //! on one surface and are measured as one. Symmetries and directions are each part's own.
 
-use super::{Scale, check, rough, scale_on, single, whole};
+use super::{Scale, rough, scale_on, single, verdict, whole};
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
 use crate::job::Job;
@@ -14,6 +14,7 @@ use crate::schedule::{Schedule, Tolerances};
 use crate::stages::measure::{irregular_nodes, measure};
 use crate::surface::parts::Offset;
 use crate::surface::{ChainPoint, Locator, Model, Sampling, Surface};
+use crate::validity::Validity;
 use glam::DVec3;
 
 /// Parts beyond this many are only counted in messages.
@@ -165,6 +166,9 @@ fn of_part(number: usize, error: Error) -> Error {
         Error::NoGrid { at, message, edge_length } => {
             Error::NoGrid { at, message: format!("part {number}: {message}"), edge_length }
         }
+        Error::Invalid { message, advice, places } => {
+            Error::Invalid { message: format!("part {number}: {message}"), advice, places }
+        }
         other => other,
     }
 }
@@ -222,10 +226,10 @@ fn join(
 ) -> Result<Run> {
     let grids: Vec<&Grid> = runs.iter().map(|run| &run.grid).collect();
     let grid = side_by_side(&grids, offsets)?;
-    let end = &job.finishing();
-    let quality = measure(&grid, surface, length, &recipe.measure, end)?;
-    check(surface, &grid, &quality, length)?;
-    let stages = (0..runs[0].stages.len()).map(|s| stage(s, &runs, surface, offsets, length, end));
+    let quality = measure(&grid, surface, length, &recipe.measure);
+    let validity = Validity::of(&grid, surface, length, &quality);
+    verdict::check(&validity, recipe, length)?;
+    let stages = (0..runs[0].stages.len()).map(|s| stage(s, &runs, surface, offsets, length));
     let stages = stages.collect::<Result<Vec<_>>>()?;
     let (mut parts, mut candidates, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
     let mut first_node = 0;
@@ -248,7 +252,7 @@ fn join(
         let tell = |w: &String| format!("part {number}: {w}");
         warnings.extend(run.warnings.iter().map(tell));
     }
-    let schedule = Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure), end)?;
+    let schedule = Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure));
     let first = runs.into_iter().next().expect("there are several parts");
     Ok(Run {
         surface: SurfaceSummary::new(model, surface),
@@ -262,6 +266,8 @@ fn join(
         quality,
         figures: schedule.figures.clone(),
         schedule,
+        valid: validity.is_valid(),
+        faults: validity.faults,
         warnings,
         stopped: job.stopped(),
         grid,
@@ -276,7 +282,6 @@ fn stage(
     surface: &Surface,
     offsets: &[Offset],
     length: f64,
-    job: &Job,
 ) -> Result<StageReport> {
     let stages: Vec<&StageReport> = runs.iter().filter_map(|run| run.stages.get(s)).collect();
     let grids: Option<Vec<&Grid>> = stages.iter().map(|stage| stage.grid.as_ref()).collect();
@@ -285,8 +290,7 @@ fn stage(
         None => None,
     };
     let options = &runs[0].recipe.measure;
-    let measured = grid.as_ref().map(|grid| measure(grid, surface, length, options, job));
-    let quality = measured.transpose()?;
+    let quality = grid.as_ref().map(|grid| measure(grid, surface, length, options));
     let notes = (1..).zip(&stages).flat_map(|(number, stage)| {
         stage.notes.iter().map(move |note| format!("part {number}: {note}"))
     });

@@ -20,8 +20,8 @@ pub struct Start {
     pub seed: u64,
     /// How they settled, where they did.
     pub report: Option<pack::Report>,
-    /// Their grid, where they were judged by it.
-    pub grid: Option<Grid>,
+    /// Their grid, where they were judged by it, and what connecting them did.
+    pub grid: Option<(Grid, triangulate::Report)>,
 }
 
 impl Start {
@@ -146,7 +146,7 @@ fn lattices(
             let bubbles =
                 lattice.bubbles(surface, chart, length, recipe.pack.k_n, recipe.row_angle(), job);
             let start = connect(surface, chart, &bubbles, job)?;
-            let mut grid = start.clone();
+            let mut grid = start.0.clone();
             let span = [k, k + 1].map(|k| k as f64 / draws as f64);
             balance(surface, &mut grid, &trial, &job.of_candidate(0, span).part_of("pack"));
             let lambda = recipe.measure.lambda;
@@ -173,15 +173,20 @@ fn lattices(
 }
 
 /// Triangulate in the chart where that works, else on the carrier.
-fn connect(surface: &Surface, chart: &Chart, bubbles: &Bubbles, job: &Job) -> Result<Grid> {
+fn connect(
+    surface: &Surface,
+    chart: &Chart,
+    bubbles: &Bubbles,
+    job: &Job,
+) -> Result<(Grid, triangulate::Report)> {
     let quick = if chart.upright {
         triangulate::triangulate_in_chart(surface, chart, bubbles, job)
     } else {
         None
     };
     match quick {
-        Some(grid) => Ok(grid),
-        None => Ok(triangulate::triangulate(surface, bubbles, job)?.0),
+        Some(grid) => Ok((grid, triangulate::Report::default())),
+        None => triangulate::triangulate(surface, bubbles, job),
     }
 }
 

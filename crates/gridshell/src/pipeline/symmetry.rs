@@ -5,7 +5,7 @@
 //! along the cuts. Then the whole is relaxed once more, so that lines run smoothly across them, and every node
 //! is put at the mean of what its images say, which makes it symmetric again to rounding.
 
-use super::{Scale, check, effort, lay, narrow, nodes_for, sampling, wishes};
+use super::{Scale, effort, lay, narrow, nodes_for, sampling, verdict, wishes};
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
 use crate::job::Job;
@@ -19,6 +19,7 @@ use crate::stages::relax;
 use crate::surface::group::Miss;
 use crate::surface::section::{Part, Wedge};
 use crate::surface::{ChainPoint, Group, Locator, Model, Motion, Surface, Symmetries};
+use crate::validity::Validity;
 use glam::{DVec2, DVec3};
 
 /// An image may be off the surface by this share of the surface's size.
@@ -107,15 +108,17 @@ pub fn generate(
     )?;
     let part = Part { surface: part, on: on.into_inner() };
     let nodes = nodes_for(&part.surface, length);
-    let mut run = lay(model, &part.surface, recipe, &Scale { length, nodes }, Vec::new(), job)?;
+    // The verdict is on the whole.
+    let lenient = Recipe { keep_invalid: true, ..recipe.clone() };
+    let mut run = lay(model, &part.surface, &lenient, &Scale { length, nodes }, Vec::new(), job)?;
 
     let tolerance = SAME * length;
     let whole = Whole { surface, locator: Locator::new(surface), group, wedge: &wedge, tolerance };
-    let (part_nodes, end) = (run.grid.xyz.len(), job.finishing());
+    let part_nodes = run.grid.xyz.len();
     for stage in &mut run.stages {
         let Some(grid) = &stage.grid else { continue };
         let (grid, _) = whole.join(&part, grid)?;
-        stage.quality = Some(measure(&grid, surface, length, &recipe.measure, &end)?);
+        stage.quality = Some(measure(&grid, surface, length, &recipe.measure));
         stage.grid = Some(grid);
     }
     let (joined, orbits) = whole.join(&part, &run.grid)?;
@@ -126,18 +129,36 @@ pub fn generate(
     let merit = |grid: &Grid| {
         Sums::whole(grid, surface, length, recipe.measure.lambda).merit(recipe.measure.lambda)
     };
-    let grid = if merit(&relaxed) >= merit(&joined) { relaxed } else { joined };
-    let quality = measure(&grid, surface, length, &recipe.measure, &end)?;
-    check(surface, &grid, &quality, length)?;
+    let judged = |grid: Grid| {
+        let quality = measure(&grid, surface, length, &recipe.measure);
+        let validity = Validity::of(&grid, surface, length, &quality);
+        (grid, quality, validity)
+    };
+    let better = merit(&relaxed) >= merit(&joined);
+    let (first, second) = if better { (relaxed, joined) } else { (joined, relaxed) };
+    let mut chosen = judged(first);
+    if !chosen.2.is_valid() {
+        let other = judged(second);
+        if other.2.faults.len() < chosen.2.faults.len() {
+            chosen = other;
+        }
+    }
+    let (grid, quality, validity) = chosen;
+    verdict::check(&validity, recipe, length)?;
     if let Some(last) = run.stages.last_mut() {
         last.quality = Some(quality.clone());
         last.grid = Some(grid.clone());
     }
-    let schedule = Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure), &end)?;
+    let schedule = Schedule::new(&grid, surface, &Tolerances::from(&recipe.measure));
     let mut warnings = fixed;
     // What is narrow in the part need not be so in the whole.
     warnings.extend(narrow::warnings(surface, &grid, length));
+    warnings.extend(validity.warnings());
+    warnings.extend(verdict::node_count(recipe, quality.nodes));
     Ok(Run {
+        recipe: recipe.clone(),
+        valid: validity.is_valid(),
+        faults: validity.faults,
         surface: SurfaceSummary::new(model, surface),
         symmetry: Some(SymmetryReport {
             mirrors: group.mirrors().iter().map(|m| m.perp().to_array()).collect(),

@@ -38,16 +38,17 @@ fn fix(surface: &mut Surface, length: f64, recipe: &Recipe, job: &Job) -> Result
     let guides: Vec<Vec<DVec3>> =
         recipe.guides.iter().map(|g| g.iter().map(|&p| p.into()).collect()).collect();
     let anchors: Vec<DVec3> = recipe.anchors.iter().map(|&p| p.into()).collect();
-    surface.fix(
-        &Fixtures {
-            crease_angle: Some(recipe.feature_angle_deg.to_radians()).filter(|&a| a < PI),
-            guides: &guides,
-            anchors: &anchors,
-            corner_angle: recipe.corner_angle_deg.to_radians(),
-            edge_length: length,
-        },
-        job,
-    )
+    let (anchors, shared) = surface.apart(&anchors, length);
+    let wanted = Fixtures {
+        crease_angle: Some(recipe.feature_angle_deg.to_radians()).filter(|&a| a < PI),
+        guides: &guides,
+        anchors: &anchors,
+        corner_angle: recipe.corner_angle_deg.to_radians(),
+        edge_length: length,
+    };
+    let mut told = surface.fix(&wanted, job)?;
+    told.extend(shared);
+    Ok(told)
 }
 
 /// Have the lengths on `surface` vary as the recipe says, about `length` metres where that is known. Gives the mean

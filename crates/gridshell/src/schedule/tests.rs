@@ -15,7 +15,7 @@ fn ridge() -> (Grid, Surface) {
 }
 
 fn schedule(grid: &Grid, surface: &Surface) -> Schedule {
-    Schedule::new(grid, surface, &Tolerances::default(), &Job::default())
+    Schedule::new(grid, surface, &Tolerances::default())
 }
 
 #[test]

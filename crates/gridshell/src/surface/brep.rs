@@ -54,6 +54,18 @@ pub struct BrepFace {
     pub loops: Vec<Vec<Coedge>>,
     /// The face's outside is against `du x dv`.
     pub reversed: bool,
+    /// What the file calls it, for errors and notes: `#552`, `D13`; empty where it has no name of its own.
+    pub label: String,
+}
+
+impl BrepFace {
+    /// How errors name it, where it is the `i`th of its model, counted from 0.
+    pub fn told(&self, i: usize) -> String {
+        if self.label.is_empty() {
+            return format!("face {}", i + 1);
+        }
+        format!("face {} ({})", i + 1, self.label)
+    }
 }
 
 /// The use of an edge by a loop.

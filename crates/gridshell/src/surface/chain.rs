@@ -16,6 +16,16 @@ const INSIDE: f64 = 1e-4;
 /// Loops are equally long when their lengths differ by no more than this share: files hold nine digits and more.
 const ALIKE: f64 = 1e-7;
 
+/// A turn that comes within this of an angle asked for, radians, is beyond it: the corners of a regular dodecagon turn
+/// by thirty degrees, and rounding must not say which of them are corners. Far above what files and tangents leave, far
+/// below what is told apart by eye.
+const TIE: f64 = 1e-3;
+
+/// Whether a turn by `angle` is beyond the one asked for.
+pub(crate) fn exceeds(angle: f64, limit: f64) -> bool {
+    angle > limit - TIE
+}
+
 /// One segment of a chain: the carrier edge from vertex k to the next one.
 #[derive(Clone, Copy, Debug)]
 pub struct Segment {
@@ -78,15 +88,14 @@ impl Chain {
     pub fn locate(&self, s: f64) -> (usize, f64) {
         let s = self.wrap(s);
         let last = self.segments.len() - 1;
-        // Segments are about equally long: the right one is near the guess.
+        // Where segments are equally long, the right one is the first guess.
         let guess = s * (last + 1) as f64 / self.arc[last + 1].max(f64::MIN_POSITIVE);
-        let mut k = (guess as usize).min(last);
-        while k < last && self.arc[k + 1] <= s {
-            k += 1;
-        }
-        while k > 0 && self.arc[k] > s {
-            k -= 1;
-        }
+        let guess = (guess as usize).min(last);
+        let k = if self.arc[guess] <= s && s < self.arc[guess + 1] {
+            guess
+        } else {
+            self.arc[1..=last].partition_point(|&a| a <= s)
+        };
         let (a, b) = (self.arc[k], self.arc[k + 1]);
         (k, if b > a { ((s - a) / (b - a)).clamp(0.0, 1.0) } else { 0.0 })
     }
@@ -178,16 +187,13 @@ impl Chain {
         let n = self.segments.len();
         let ends: Vec<[DVec3; 2]> = (0..n).map(|k| self.end_tangents(carrier, curves, k)).collect();
         self.corners = (0..n)
-            .filter(|&k| trig::angle(ends[(k + n - 1) % n][1], ends[k][0]) > corner_angle)
+            .filter(|&k| exceeds(trig::angle(ends[(k + n - 1) % n][1], ends[k][0]), corner_angle))
             .map(|k| k as u32)
             .collect();
-        let Some(&first) = self.corners.first() else { return };
-        self.vertices.rotate_left(first as usize);
-        self.segments.rotate_left(first as usize);
-        for c in &mut self.corners {
-            *c -= first;
+        if !self.corners.is_empty() {
+            self.begin_at_corner();
+            self.measure(carrier);
         }
-        self.measure(carrier);
     }
 
     /// Directions of segment `k` at its two ends.

@@ -6,7 +6,7 @@
 use super::carrier::NONE;
 use super::locate::nearest_in_triangle;
 use super::track::Tracks;
-use super::{Carrier, Shape, Surface, SurfacePoint};
+use super::{Carrier, NEAREST, Shape, Surface, SurfacePoint};
 use crate::error::{Error, Result};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Points nearer than this, over l0, are one.
 pub(super) const SAME: f64 = 1e-6;
 /// An anchor this near to a feature or the boundary, over l0, is meant to be on it.
-const ON_LINE: f64 = 0.02;
+const ON_LINE: f64 = NEAREST;
 /// A point that takes more than this share of a triangle's corner moves that corner, where it may.
 const AT_CORNER: f64 = 0.75;
 /// A point that takes less than this share of a corner splits the edge opposite.
@@ -112,7 +112,11 @@ impl<'a> Cutter<'a> {
             self.put_on_line(t, k, p)
         } else {
             let spot = self.spot(t, bary, p);
-            self.insert(&spot)
+            match self.surface.beyond(&SurfacePoint { triangle: t, bary }, spot.xyz) {
+                // A patch goes on past its trims; the surface does not.
+                Some(border) => self.put_on_line(border.triangle, border.edge, p),
+                None => self.insert(&spot),
+            }
         };
         self.tied[vertex as usize] = true;
         vertex
@@ -127,29 +131,12 @@ impl<'a> Cutter<'a> {
             let track = self.surface.tracks.get(corners[k], corners[(k + 1) % 3]);
             carrier.neighbors[t as usize][k] == NONE || track.is_some_and(|track| track.feature)
         };
-        let distance = |k: usize| self.foot_on_edge(t, k, p).1.distance(p);
+        let distance = |k: usize| self.surface.foot_on_edge(t, k, p).1.distance(p);
         let lines = (0..3).filter(|&k| is_line(k)).map(|k| (distance(k), k));
         let (nearest, k) = lines.min_by(|x, y| x.0.total_cmp(&y.0))?;
         let bary = nearest_in_triangle(carrier.corners(t), p);
         let off = self.spot(t, bary, p).xyz.distance(p);
         (nearest <= off + share * self.length).then_some(k)
-    }
-
-    /// The point of edge `k` of triangle `t`, or of the curve behind it, that is nearest to `p`: the share of
-    /// the edge, and the point.
-    fn foot_on_edge(&self, t: u32, k: usize, p: DVec3) -> (f64, DVec3) {
-        let corners = self.surface.carrier.triangles[t as usize];
-        let (a, b) = (corners[k], corners[(k + 1) % 3]);
-        let d = self.xyz(b) - self.xyz(a);
-        let f = ((p - self.xyz(a)).dot(d) / d.length_squared()).clamp(0.0, 1.0);
-        let xyz = match self.surface.tracks.curve_of(a, b) {
-            Some((curve, t0, t1)) => {
-                let range = [t0.min(t1), t0.max(t1)];
-                self.surface.curves[curve as usize].project(t0 + (t1 - t0) * f, range, p).1
-            }
-            None => self.xyz(a) + d * f,
-        };
-        (f, xyz)
     }
 
     /// As [`insert`](Cutter::insert), but near a feature or the boundary the vertex is put on it.
@@ -163,7 +150,7 @@ impl<'a> Cutter<'a> {
     /// Split edge `k` of triangle `t` where it is nearest to `p`, or take its end.
     pub(super) fn put_on_line(&mut self, t: u32, k: usize, p: DVec3) -> u32 {
         let corners = self.surface.carrier.triangles[t as usize];
-        let (f, xyz) = self.foot_on_edge(t, k, p);
+        let (f, xyz) = self.surface.foot_on_edge(t, k, p);
         for v in [corners[k], corners[(k + 1) % 3]] {
             if self.xyz(v).distance(xyz) <= SAME * self.length {
                 return v;

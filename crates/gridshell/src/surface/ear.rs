@@ -51,6 +51,9 @@ fn clip_ears(plan: &[DVec2], face: &[u32], out: &mut Vec<[u32; 3]>) {
             looks += n;
             looks <= MOST_LOOKS && is_ear(plan, &left, k)
         });
+        if looks > MOST_LOOKS {
+            break;
+        }
         // A polygon that crosses itself may have none: the most open corner must do.
         let k = ear.unwrap_or_else(|| sharpest(plan, &left));
         out.push([(k + n - 1) % n, k, (k + 1) % n].map(|i| face[left[i]]));
@@ -58,7 +61,8 @@ fn clip_ears(plan: &[DVec2], face: &[u32], out: &mut Vec<[u32; 3]>) {
         // The next ear is sought one corner on, so that the triangles do not all meet in one place.
         at = (k + 1) % left.len();
     }
-    out.push([left[0], left[1], left[2]].map(|i| face[i]));
+    // Three corners are left, or so many that it would take minutes to look at them any longer.
+    out.extend((2..left.len()).map(|k| [left[0], left[k - 1], left[k]].map(|i| face[i])));
 }
 
 /// The polygon seen along its normal, scaled to an area of about one.

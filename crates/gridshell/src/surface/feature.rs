@@ -5,12 +5,13 @@
 //! are gathered into chains, which end at fixed nodes: where a feature ends, meets another or the boundary,
 //! turns sharply, or carries an anchor.
 
-use super::chain::{Segment, boundary_loops};
+use super::chain::{Segment, boundary_loops, exceeds};
 use super::cut::Cutter;
+use super::dense::thin_guide;
 use super::track::Track;
 use super::{Chain, Surface, SurfacePoint, carrier::NONE};
 use crate::error::Result;
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use crate::math::trig;
 use glam::DVec3;
 
@@ -50,15 +51,26 @@ impl Surface {
             self.mark_creases(angle);
             notes.extend(self.drop_short_creases(wanted));
         }
+        let mut dense = self.thin_corners(wanted.edge_length);
         let mut anchors = Vec::new();
         if !wanted.guides.is_empty() || !wanted.anchors.is_empty() {
             let mut cutter = Cutter::new(self, wanted.edge_length);
             for (i, guide) in wanted.guides.iter().enumerate() {
                 job.check("fixing guides")?;
+                job.progress("fix", i as f64 / wanted.guides.len() as f64, Picture::None);
+                let thinned = thin_guide(i, guide, wanted.corner_angle, wanted.edge_length);
+                let guide = match &thinned {
+                    Some((guide, note)) => {
+                        notes.push(note.clone());
+                        guide
+                    }
+                    None => guide,
+                };
                 notes.extend(cutter.cut_guide(i, guide)?);
             }
             for (i, &anchor) in wanted.anchors.iter().enumerate() {
                 job.check("fixing anchors")?;
+                job.progress("fix", i as f64 / wanted.anchors.len() as f64, Picture::None);
                 let (vertex, note) = cutter.put_anchor(i, anchor)?;
                 anchors.push(vertex);
                 notes.extend(note);
@@ -70,7 +82,9 @@ impl Surface {
             for l in &mut self.loops {
                 l.find_corners(&self.carrier, &self.curves, wanted.corner_angle);
             }
+            dense = self.thin_corners(wanted.edge_length).or(dense);
         }
+        notes.extend(dense);
         if anchors.is_empty() && self.tracks.features().next().is_none() {
             return Ok(notes);
         }
@@ -105,7 +119,7 @@ impl Surface {
                     continue;
                 }
                 let [m, n] = [t as u32, u].map(|t| self.normal_beside(t, a, b));
-                if trig::angle(m, n) > angle {
+                if exceeds(trig::angle(m, n), angle) {
                     found.push((a, b));
                 }
             }
@@ -174,7 +188,7 @@ impl Surface {
             let turns = || match joined {
                 &[(_, p), (_, q)] => {
                     let into = self.direction(&web, p, v, 1);
-                    trig::angle(into, self.direction(&web, v, q, 0)) > corner_angle
+                    exceeds(trig::angle(into, self.direction(&web, v, q, 0)), corner_angle)
                 }
                 _ => true,
             };

@@ -6,14 +6,17 @@
 
 mod area;
 pub mod bends;
+mod beyond;
 pub mod brep;
 pub mod builtin;
 mod cap;
 pub mod carrier;
 pub mod chain;
 pub mod chart;
+mod crowd;
 pub mod curve;
 mod cut;
+mod dense;
 pub mod direction;
 pub(crate) mod ear;
 mod extend;
@@ -73,6 +76,10 @@ pub(crate) use seam::bound;
 
 use glam::DVec3;
 use track::Tracks;
+
+/// Nodes nearer to one another than this, over the length wanted there, count as one. Larger, and details of a border
+/// that can well be built would be left out; smaller, and members shorter than a node is wide would pass.
+pub const NEAREST: f64 = 0.05;
 
 /// A design surface, ready to carry a grid.
 #[derive(Clone)]
@@ -148,7 +155,7 @@ impl Surface {
     }
 
     /// The foot of `xyz` on the exact surface near the carrier point `point`: on the patch of that point's
-    /// triangle, or of one beside it where that is nearer. On a mesh, the carrier point.
+    /// triangle, or of one beside it where that is nearer; beyond the border on the border. On a mesh, the carrier point.
     pub fn foot(&self, point: &SurfacePoint, xyz: DVec3) -> DVec3 {
         let carrier = &self.carrier;
         let patch = |t: u32| carrier.patch[t as usize];
@@ -161,8 +168,13 @@ impl Surface {
         // triangle before it.
         let beside = carrier.neighbors[point.triangle as usize].into_iter();
         let others = beside.filter(|&t| t != carrier::NONE && patch(t) != patch(point.triangle));
-        others
+        let foot = others
             .filter_map(|triangle| on(&SurfacePoint { triangle, bary: [1.0 / 3.0; 3] }))
-            .fold(own, |a, b| if b.distance(xyz) < a.distance(xyz) { b } else { a })
+            .fold(own, |a, b| if b.distance(xyz) < a.distance(xyz) { b } else { a });
+        // Patches go on past their trims.
+        if self.beyond(point, foot).is_some() {
+            return self.beyond(point, xyz).map_or(foot, |border| border.foot);
+        }
+        foot
     }
 }

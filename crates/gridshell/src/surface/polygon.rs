@@ -6,11 +6,13 @@ use super::chain::boundary_loops;
 use super::ear::split;
 use super::{Carrier, PREPARING, PolygonMesh, Sampling, Surface, cap};
 use crate::error::{Error, Result};
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 
-/// More triangles than this are refused: at about 300 bytes each they would fill a small machine.
+/// Memory that a triangle takes, about, bytes.
+const BYTES_A_TRIANGLE: f64 = 300.0;
+/// More triangles than this are refused: they would fill a small machine.
 pub(super) const MAX_TRIANGLES: f64 = 4e6;
 /// Edges are never halved below this share of the largest coordinate, where their middles would be their ends.
 const FINEST: f64 = 1e-12;
@@ -27,8 +29,9 @@ impl PolygonMesh {
         if triangles.is_empty() {
             return Err(Error::Surface(format!("{}: the mesh has no faces", self.name)));
         }
-        self.check_size(&points, &triangles, sampling.max_edge)?;
+        self.check_size(&points, &triangles, sampling.max_edge, job)?;
         job.check(PREPARING)?;
+        job.progress("surface", 0.0, Picture::None);
         while let Some(finer) = halve(&mut points, &triangles, sampling.max_edge) {
             triangles = finer;
             job.check(PREPARING)?;
@@ -73,7 +76,13 @@ impl PolygonMesh {
 
     /// Halving goes on by powers of two, so a triangle yields about as many as its edges hold `max_edge`,
     /// squared.
-    fn check_size(&self, points: &[DVec3], triangles: &[[u32; 3]], max_edge: f64) -> Result<()> {
+    fn check_size(
+        &self,
+        points: &[DVec3],
+        triangles: &[[u32; 3]],
+        max_edge: f64,
+        job: &Job,
+    ) -> Result<()> {
         let farthest = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
         if max_edge <= FINEST * farthest {
             return Err(Error::Surface(format!(
@@ -91,6 +100,8 @@ impl PolygonMesh {
             })
             .sum();
         if expected <= MAX_TRIANGLES {
+            let what = format!("sampling the mesh every {max_edge:.3} m");
+            job.reserve(expected * BYTES_A_TRIANGLE, &what)?;
             return Ok(());
         }
         Err(Error::Surface(format!(

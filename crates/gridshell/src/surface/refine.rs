@@ -44,10 +44,10 @@ impl<'a> Web<'a> {
         rims: &[[u32; 2]],
     ) -> Web<'a> {
         let mut same: Vec<u32> = (0..nodes.len() as u32).collect();
-        for i in 0..nodes.len() {
-            if nodes[i].free.is_some() {
-                let pole = |n: &Node| n.vertex == nodes[i].vertex && n.free == nodes[i].free;
-                same[i] = nodes.iter().position(pole).unwrap_or(i) as u32;
+        let mut poles = std::collections::BTreeMap::new();
+        for (i, node) in nodes.iter().enumerate() {
+            if node.free.is_some() {
+                same[i] = *poles.entry((node.vertex, node.free)).or_insert(i as u32);
             }
         }
         let triangles: Vec<[u32; 3]> = triangles

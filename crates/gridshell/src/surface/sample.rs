@@ -44,12 +44,13 @@ pub(super) fn parameters(edge: &BrepEdge, sampling: &Sampling) -> Option<Vec<f64
 fn kinks(edge: &BrepEdge) -> Vec<f64> {
     let [a, b] = edge.range;
     let mut kinks = vec![a];
-    if let Curve::Nurbs(c) = &edge.curve {
+    if let Curve::Nurbs(c) | Curve::OnShape(_, c) = &edge.curve {
+        let polyline = c.degree == 1 && matches!(edge.curve, Curve::Nurbs(_));
         // A knot as often as the degree joins two pieces by position only.
         let joints = c.knots.windows(c.degree).filter(|w| w[0] == w[c.degree - 1]).map(|w| w[0]);
         for k in joints.filter(|&k| k > a && k < b) {
             let last = kinks[kinks.len() - 1];
-            if k > last && (c.degree == 1 || turns(&edge.curve, k, b - a)) {
+            if k > last && (polyline || turns(&edge.curve, k, b - a)) {
                 kinks.push(k);
             }
         }

@@ -12,9 +12,9 @@ use super::curve::Curve;
 use super::model::Sampling;
 use super::poles;
 use super::shape::{Pole, Shape};
-use super::tessellate::sample_edges;
+use super::tessellate::{fault, sample_edges};
 use super::trim::{Edges, Node, Traced, Tracer};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::job::Job;
 use glam::DVec2;
 use std::sync::Arc;
@@ -41,7 +41,9 @@ pub(super) fn complete(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Br
     let curves: Vec<Curve> = brep.edges.iter().map(|e| e.curve.clone()).collect();
     let edges = Edges { curves: &curves, polylines: &polylines, points: &points };
     // What was broken off tells nothing of the face.
-    let fault = |i: usize, what: &str| job.check(PREPARING).err().unwrap_or_else(|| fault(i, what));
+    let fault = |brep: &Brep, i: usize, what: &str| {
+        job.check(PREPARING).err().unwrap_or_else(|| fault(brep, i, what))
+    };
     for i in closed {
         job.check(PREPARING)?;
         let shape = brep.faces[i].shape.clone();
@@ -50,18 +52,18 @@ pub(super) fn complete(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Br
             brep.faces[i].loops.iter().map(|l| tracer.trace(l, reversed)).collect()
         };
         let mut reversed = brep.faces[i].reversed;
-        let mut all = traced(reversed, &brep).map_err(|what| fault(i, &what))?;
+        let mut all = traced(reversed, &brep).map_err(|what| fault(&brep, i, &what))?;
         if let Some(loops) = without_seams(&brep, i, &all) {
             brep.faces[i].loops = loops;
-            all = traced(reversed, &brep).map_err(|what| fault(i, &what))?;
+            all = traced(reversed, &brep).map_err(|what| fault(&brep, i, &what))?;
             if only_holes(&shape, &all, tracer.poles(), 1.0) {
                 reversed = !reversed;
                 brep.faces[i].reversed = reversed;
-                all = traced(reversed, &brep).map_err(|what| fault(i, &what))?;
+                all = traced(reversed, &brep).map_err(|what| fault(&brep, i, &what))?;
             }
         }
         if only_holes(&shape, &all, tracer.poles(), -1.0) {
-            let from = clear_of(&shape, &all).map_err(|what| fault(i, &what))?;
+            let from = clear_of(&shape, &all).map_err(|what| fault(&brep, i, &what))?;
             bound_from(&mut brep, i, from)?;
             continue;
         }
@@ -70,7 +72,7 @@ pub(super) fn complete(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Br
         brep.faces[i].reversed = !reversed;
         traced(!reversed, &brep)
             .and_then(|all| cut(&mut brep, i, &all, tracer.poles()))
-            .map_err(|_| fault(i, &what))?;
+            .map_err(|_| fault(&brep, i, &what))?;
     }
     Ok(brep)
 }
@@ -85,10 +87,6 @@ pub(super) fn bound_all(brep: &mut Brep) {
             let _ = bound(brep, i);
         }
     }
-}
-
-fn fault(face: usize, what: &str) -> Error {
-    Error::Surface(format!("face {}: {what}", face + 1))
 }
 
 /// Whether the loops are holes in a patch that has no sides but seams and poles, such as a sphere; run clockwise
@@ -182,7 +180,7 @@ fn bound_from(brep: &mut Brep, i: usize, from: DVec2) -> Result<()> {
     let [[u0, u1], [v0, v1]] = shape.domain();
     let (u0, u1, v0, v1) = (from.x, from.x + (u1 - u0), from.y, from.y + (v1 - v0));
     if ![u0, u1, v0, v1].iter().all(|t| t.is_finite()) {
-        return Err(fault(i, "it has no boundary and its surface no end"));
+        return Err(fault(brep, i, "it has no boundary and its surface no end"));
     }
     let closed = shape.closed();
     let poles = shape.poles();
@@ -227,7 +225,7 @@ fn bound_from(brep: &mut Brep, i: usize, from: DVec2) -> Result<()> {
     }
     let mut coedges: Vec<Coedge> = sides.into_iter().flatten().collect();
     if coedges.is_empty() {
-        return Err(fault(i, "its surface has no side that is a curve"));
+        return Err(fault(brep, i, "its surface has no side that is a curve"));
     }
     if brep.faces[i].reversed {
         flip(&mut coedges);

@@ -13,10 +13,11 @@ use super::track::{Track, Tracks};
 use super::trim::{Edges, NEW, Node, Polyline, Tracer, Trim};
 use super::{PREPARING, Surface, area, chain, fill, order, sample, seam, weave};
 use crate::error::{Error, Result};
-use crate::job::Job;
+use crate::job::{Job, Picture};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// More triangles than this are not made.
 const MOST_TRIANGLES: f64 = 8e6;
@@ -29,6 +30,10 @@ const NODES_TO_A_SQUARE: f64 = 8.0;
 const EASED: f64 = 4.0;
 /// Eased so often, the spacing no longer depends on bends.
 const MOST_EASINGS: usize = 8;
+
+/// A face may run so many diagonals of the model's edges away from them; beyond, a number in the file is wrong. Sound
+/// faces stay within two; a wrong digit in front that gets by costs as many times its face's triangles.
+const FARTHEST: f64 = 64.0;
 
 /// Rounds of leaving out nodes that pinch the surface at a pole.
 const MOST_PINCHES: usize = 20;
@@ -52,6 +57,7 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Surface
     let (mut points, polylines) = sample_edges(brep, sampling, job)?;
     let curves: Vec<_> = brep.edges.iter().map(|e| e.curve.clone()).collect();
     let edges = Edges { curves: &curves, polylines: &polylines, points: &points };
+    let done = AtomicUsize::new(0);
     let pieces: Vec<Piece> = brep
         .faces
         .par_iter()
@@ -60,7 +66,9 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Surface
             let made = piece(face, &edges, sampling, job);
             // What was broken off tells nothing of the face.
             job.check(PREPARING)?;
-            made.map_err(|what| fault(i, &what))
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            job.progress("surface", done as f64 / brep.faces.len() as f64, Picture::None);
+            made.map_err(|what| fault(brep, i, &what))
         })
         .collect::<Result<_>>()?;
 
@@ -127,8 +135,9 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Surface
     })
 }
 
-fn fault(face: usize, what: &str) -> Error {
-    Error::Surface(format!("face {}: {what}", face + 1))
+/// What is wrong with the `i`th face.
+pub(super) fn fault(brep: &Brep, i: usize, what: &str) -> Error {
+    Error::Surface(format!("{}: {what}", brep.faces[i].told(i)))
 }
 
 /// Refuse what the rest relies on.
@@ -145,7 +154,7 @@ fn check(brep: &Brep, sampling: &Sampling) -> Result<()> {
     }
     for (i, f) in brep.faces.iter().enumerate() {
         if f.loops.iter().flatten().any(|c| c.edge as usize >= brep.edges.len()) {
-            return Err(fault(i, "a loop names an edge that does not exist"));
+            return Err(fault(brep, i, "a loop names an edge that does not exist"));
         }
     }
     Ok(())
@@ -191,6 +200,7 @@ fn piece(
     let Trim { loops, sliver } = tracer.trim(face)?;
     let all = || loops.iter().flatten().map(|n| n.uv);
     let (lo, hi) = (all().fold(DVec2::MAX, DVec2::min), all().fold(DVec2::MIN, DVec2::max));
+    tame(shape, [lo, hi], edges.points)?;
     let stretch = Stretch::new(shape, tracer.poles(), lo, hi, sampling.max_edge);
     let rough = polygon_area(&loops, stretch.scale()) / (sampling.max_edge * sampling.max_edge);
     if rough > MOST_TRIANGLES {
@@ -205,12 +215,10 @@ fn piece(
         from += n;
     }
     let most = most_nodes(shape, [lo, hi], &loops, sampling);
-    let (mut eased, mut looks) = (*sampling, fill::LOOKS + fill::LOOKS_TO_A_NODE * most);
+    let mut eased = *sampling;
     let inside = (0..MOST_EASINGS).find_map(|_| {
-        let inside = fill::inside(shape, &loops, &eased, most, looks, job);
+        let inside = fill::inside(shape, &loops, &eased, most, job);
         eased.chord_error *= EASED;
-        // Half the bends need half the rows of candidates or fewer; all that follow take no more time than the first did.
-        looks /= 2;
         inside
     });
     nodes.extend(inside.ok_or(
@@ -225,6 +233,38 @@ fn piece(
         .map(|t| area::triangle(shape, t.map(|n| parameters(&web.nodes[n as usize]))))
         .sum();
     Ok(Piece { nodes: web.nodes, triangles: web.triangles, area: area + sliver })
+}
+
+/// Refuse a patch that runs far away from all edges, given by their points, within this box of parameters.
+fn tame(shape: &Shape, [lo, hi]: [DVec2; 2], edges: &[DVec3]) -> std::result::Result<(), String> {
+    let Some(spline) = shape.spline() else { return Ok(()) };
+    let corners = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = edges.iter().fold(corners, |(l, h), &p| (l.min(p), h.max(p)));
+    let size = low.distance(high);
+    let off = |p: DVec3| p.distance(p.clamp(low, high));
+    let farthest = |points: &mut dyn Iterator<Item = DVec3>| {
+        points.max_by(|a, b| off(*a).total_cmp(&off(*b))).filter(|&p| off(p) > FARTHEST * size)
+    };
+    // The patch lies within the hull of its control points; it may be a small part of a large one.
+    let Some(control) = farthest(&mut spline.points.iter().copied()) else { return Ok(()) };
+    let inside = |k: usize| {
+        let lattice = shape.lattice(k).into_iter();
+        lattice.filter(move |&t| lo[k] <= t && t <= hi[k]).collect::<Vec<_>>()
+    };
+    let (us, vs) = (inside(0), inside(1));
+    let mut places =
+        us.iter().flat_map(|&u| vs.iter().map(move |&v| shape.point(DVec2::new(u, v))));
+    if farthest(&mut places).is_none() {
+        return Ok(());
+    }
+    Err(format!(
+        "it runs far away from its boundary: its control point at ({:.3}, {:.3}, {:.3}) is {:.0} times as far off as \
+         the model's edges are apart, so a number is most likely wrong; repair it in the program that made the file",
+        control.x,
+        control.y,
+        control.z,
+        off(control) / size
+    ))
 }
 
 /// How many nodes a face may have: a patch that is crumpled, by a fault of its file, would have millions.

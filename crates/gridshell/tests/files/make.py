@@ -895,6 +895,84 @@ def write_rhino():
 TASKS.append(("rhino", write_rhino))
 
 
+def write_rhino_profiles():
+    """Edges that are polycurves, plane surfaces without a brep, and blocks: mirrored, stretched, one in another."""
+    import rhino3dm as r
+
+    pi, P = math.pi, r.Point3d
+    units = {"mm": (r.UnitSystem.Millimeters, 1000.0), "m": (r.UnitSystem.Meters, 1.0)}
+    units["in"] = (r.UnitSystem.Inches, 1 / 0.0254)
+
+    def model(unit):
+        m = r.File3dm()
+        m.Settings.ModelUnitSystem = units[unit][0]
+        m.Layers.AddLayer("roof", (0, 0, 0, 255))
+        return m
+
+    def lantern(s, turn):
+        """A wall 2 high at radius 4 and a quarter round of radius 1 on it, about the z axis."""
+        arc = r.Arc(P(4 * s, 0, 2 * s), P((3 + math.sqrt(0.5)) * s, 0, (2 + math.sqrt(0.5)) * s), P(3 * s, 0, 3 * s))
+        profile = r.PolyCurve()
+        profile.AppendSegment(r.LineCurve(P(4 * s, 0, 0), P(4 * s, 0, 2 * s)))
+        profile.AppendSegment(r.ArcCurve.CreateFromArc(arc))
+        turned = r.RevSurface.Create(profile, r.Line(P(0, 0, 0), P(0, 0, 1)), 0, turn)
+        return r.Brep.CreateFromRevSurface(turned, False, False)
+
+    def plane(s):
+        return r.PlaneSurface(r.Plane(P(s, 0, s), r.Vector3d(0, 0.6, 0.8)), r.Interval(-s, 4 * s), r.Interval(0, 4 * s))
+
+    def named(label):
+        a = r.ObjectAttributes()
+        a.Name = label
+        return a
+
+    def block(m, name, geometry, *places):
+        k = m.InstanceDefinitions.Add(name, "", "", "", P(0, 0, 0), (geometry,), (named("member"),))
+        return [r.InstanceReference(m.InstanceDefinitions.FindIndex(k).Id, place) for place in places]
+
+    def write(m, name, version, what, area, loops, corners):
+        m.Write(str(HERE / f"{name}.3dm"), version)
+        ROWS.append([f"{name}.3dm", f"{what}, version {version}", f"{area:.9g}", 1, loops, corners, "shared"])
+
+    whole = TAU * (4 * 2 + 3 * pi / 2 + 1)
+    for version, unit in [(2, "mm"), (4, "m"), (7, "in")]:
+        m = model(unit)
+        m.Objects.Add(lantern(units[unit][1], TAU), named("lantern"))
+        write(m, f"lantern_v{version}_{unit}", version, "a wall and a quarter round turned as one", whole, 2, 0)
+    for version, unit in [(3, "m"), (6, "mm"), (8, "in")]:
+        m = model(unit)
+        m.Objects.Add(lantern(units[unit][1], pi), named("niche"))
+        write(m, f"niche_v{version}_{unit}", version, "half of the lantern", whole / 2, 1, 4)
+    for version, unit in [(2, "in"), (5, "mm"), (8, "m")]:
+        m = model(unit)
+        m.Objects.Add(plane(units[unit][1]), named("plane"))
+        write(m, f"plane_v{version}_{unit}", version, "a plane surface of 5 by 4", 20, 1, 4)
+
+    around, steps = 0.0, 200_000
+    for i in range(steps):
+        a = TAU * (i + 0.5) / steps
+        around += math.hypot(3 * math.sin(a), 1.5 * math.cos(a)) * TAU / steps
+    tube = r.Brep.CreateFromCylinder(r.Cylinder(r.Circle(P(0, 0, 0), 1.5), 4), False, False)
+    stretched = r.Transform.Scale(r.Plane(P(0, 0, 0), r.Vector3d(0, 0, 1)), 2, 1, 3)
+    m = model("m")
+    for reference in block(m, "tube", tube, stretched):
+        m.Objects.AddInstanceObject(reference, named("stretched"))
+    write(m, "block_stretched_v7", 7, "a tube in a block that is stretched", around * 12, 2, 0)
+    m = model("mm")
+    mirrored = r.Transform.Mirror(P(-9000, 0, 0), r.Vector3d(1, 0, 0))
+    for reference in block(m, "niche", lantern(1000, pi), mirrored):
+        m.Objects.AddInstanceObject(reference, named("mirrored"))
+    write(m, "block_mirrored_v5", 5, "half of the lantern in a block that is mirrored", whole / 2, 1, 4)
+    m = model("m")
+    [inner] = block(m, "inner", plane(1.0), r.Transform.Translation(3, 0, 0))
+    for reference in block(m, "outer", inner, r.Transform.Scale(P(0, 0, 0), 2)):
+        m.Objects.AddInstanceObject(reference, named("nested"))
+    write(m, "block_nested_v8", 8, "a plane surface in a block in a block twice as large", 80, 1, 4)
+
+
+TASKS.append(("rhino-profiles", write_rhino_profiles))
+
+
 # ---------------------------------------------------------------- all of it
 
 

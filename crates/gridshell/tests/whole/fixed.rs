@@ -171,7 +171,12 @@ fn gable_patches() -> Model {
         let shape =
             NurbsSurface::new([1, 1], [knots(), knots()], [2, 2], points, Vec::new()).unwrap();
         let coedges = loops.map(|(edge, reversed)| Coedge { edge, reversed });
-        BrepFace { shape: Shape::Nurbs(shape), loops: vec![coedges.to_vec()], reversed: false }
+        BrepFace {
+            shape: Shape::Nurbs(shape),
+            loops: vec![coedges.to_vec()],
+            reversed: false,
+            label: String::new(),
+        }
     };
     let south = face([0, 1, 5, 4], [(0, false), (1, false), (2, false), (3, false)]);
     let north = face([4, 5, 2, 3], [(2, true), (4, false), (5, false), (6, false)]);

@@ -20,7 +20,14 @@ fn random_bubbles(surface: &Surface) -> Bubbles {
     let count = pack::interior_count(surface, boundary.len(), LENGTH, 1.0);
     let mut bubbles = Bubbles { boundary, ..Bubbles::default() };
     let mut rng = fastrand::Rng::with_seed(5);
-    bubbles.interior = pack::scatter(surface, count, &bubbles.xyz(surface), 0.6 * LENGTH, &mut rng);
+    bubbles.interior = pack::scatter(
+        surface,
+        count,
+        &bubbles.xyz(surface),
+        0.6 * LENGTH,
+        &mut rng,
+        &Job::default(),
+    );
     bubbles
 }
 

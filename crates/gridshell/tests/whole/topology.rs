@@ -19,7 +19,7 @@ fn added(name: &str, edge_length: f64, along: f64, count: usize, seed: u64) -> u
         pieces.iter().map(|p| pack::boundary::member_count(p, along)).collect();
     let boundary = pack::boundary::place(&surface, &pieces, &counts, 0.0);
     let mut rng = fastrand::Rng::with_seed(seed);
-    let interior = pack::scatter(&surface, count, &[], 0.0, &mut rng);
+    let interior = pack::scatter(&surface, count, &[], 0.0, &mut rng, &Job::default());
     let bubbles = Bubbles { boundary, interior, ..Bubbles::default() };
     let (grid, report) = triangulate::triangulate(&surface, &bubbles, &Job::default()).unwrap();
     grid.mesh.check().unwrap();

@@ -64,7 +64,15 @@ impl<'a> Numbers<'a> {
     /// # Errors
     /// [`Error::Parse`] with the accessor.
     pub fn points(&self, accessor: usize) -> Result<Vec<DVec3>> {
-        let at = self.accessor(accessor, "VEC3")?;
+        Ok(self.rows::<3>(accessor)?.into_iter().map(DVec3::from).collect())
+    }
+
+    /// The vectors of three or four numbers that an accessor holds.
+    ///
+    /// # Errors
+    /// [`Error::Parse`] with the accessor.
+    pub fn rows<const N: usize>(&self, accessor: usize) -> Result<Vec<[f64; N]>> {
+        let at = self.accessor(accessor, &format!("VEC{N}"))?;
         let scale = match (at.normalized, at.component_type) {
             (true, I8) => 1.0 / f64::from(i8::MAX),
             (true, U8) => 1.0 / f64::from(u8::MAX),
@@ -72,35 +80,36 @@ impl<'a> Numbers<'a> {
             (true, U16) => 1.0 / f64::from(u16::MAX),
             _ => 1.0,
         };
-        let point = |item: &[u8]| {
-            let size = item.len() / 3;
-            let number = |c: usize| number(&item[c * size..(c + 1) * size], at.component_type);
-            let p = DVec3::new(number(0), number(1), number(2)) * scale;
-            if at.normalized { p.max(DVec3::NEG_ONE) } else { p }
+        let row = |item: &[u8]| {
+            let size = item.len() / N;
+            std::array::from_fn(|c| {
+                let x = number(&item[c * size..(c + 1) * size], at.component_type) * scale;
+                if at.normalized { x.max(-1.0) } else { x }
+            })
         };
-        let mut points: Vec<DVec3> = match (&at.sparse, at.buffer_view) {
-            (Some(_), None) if at.count <= MOST_ZEROS => vec![DVec3::ZERO; at.count],
-            _ => self.items(accessor, at, 3)?.map(point).collect(),
+        let mut rows: Vec<[f64; N]> = match (&at.sparse, at.buffer_view) {
+            (Some(_), None) if at.count <= MOST_ZEROS => vec![[0.0; N]; at.count],
+            _ => self.items(accessor, at, N)?.map(row).collect(),
         };
         if let Some(sparse) = &at.sparse {
-            for (k, p) in self.replaced(accessor, at, sparse, point)? {
-                points[k] = p;
+            for (k, replaced) in self.replaced(accessor, at, sparse, row)? {
+                rows[k] = replaced;
             }
         }
-        match points.iter().position(|p| !p.is_finite()) {
-            Some(k) => Err(self.error(accessor, format!("point {k} is not finite"))),
-            None => Ok(points),
+        match rows.iter().position(|row| !row.iter().all(|x| x.is_finite())) {
+            Some(k) => Err(self.error(accessor, format!("item {k} is not finite"))),
+            None => Ok(rows),
         }
     }
 
-    /// The points of an accessor that are given apart, with their places.
-    fn replaced(
+    /// The rows of an accessor that are given apart, with their places.
+    fn replaced<const N: usize>(
         &self,
         accessor: usize,
         at: &Accessor,
         sparse: &Sparse,
-        point: impl Fn(&[u8]) -> DVec3,
-    ) -> Result<Vec<(usize, DVec3)>> {
+        row: impl Fn(&[u8]) -> [f64; N],
+    ) -> Result<Vec<(usize, [f64; N])>> {
         let part = |of: &Accessor, component_type: u32| Accessor {
             buffer_view: of.buffer_view,
             byte_offset: of.byte_offset,
@@ -116,7 +125,14 @@ impl<'a> Numbers<'a> {
         };
         let places: Vec<usize> =
             self.items(accessor, &places, 1)?.map(place).collect::<Result<_>>()?;
-        Ok(places.into_iter().zip(self.items(accessor, &values, 3)?.map(point)).collect())
+        Ok(places.into_iter().zip(self.items(accessor, &values, N)?.map(row)).collect())
+    }
+
+    /// Whether the file holds the numbers of an accessor as they are, whatever else it says of them.
+    pub fn holds(&self, accessor: usize) -> bool {
+        let view = self.document.accessors.get(accessor).and_then(|at| at.buffer_view);
+        let view = view.and_then(|v| self.document.buffer_views.get(v));
+        view.is_some_and(|v| self.buffers.get(v.buffer).is_some_and(|b| !b.is_empty()))
     }
 
     /// The vertex numbers that an accessor holds.
@@ -167,6 +183,10 @@ impl<'a> Numbers<'a> {
         let Some(view) = view else {
             return Err(self.error(accessor, "it has no buffer view"));
         };
+        if view.extensions.meshopt.is_some() && !self.holds(accessor) {
+            let message = "it is compressed (EXT_meshopt_compression), which cannot be read; export it without compression";
+            return Err(self.error(accessor, message));
+        }
         let stride = view.byte_stride.unwrap_or(size);
         if stride < size {
             return Err(

@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::io::soup::{Digits, Soup};
 use crate::io::{LengthUnit, file, scan};
 use crate::job::Job;
+use crate::surface::Loss;
 use glam::{DMat4, DQuat, DVec3};
 use std::path::Path;
 
@@ -16,8 +17,20 @@ const COPIES: usize = 1_000_000;
 const TRIANGLES: u32 = 4;
 const STRIP: u32 = 5;
 const FAN: u32 = 6;
-/// The one extension that changes how positions are read and that is understood.
-const QUANTIZED: &str = "KHR_mesh_quantization";
+/// Extensions that change where triangles lie, and are understood here.
+const UNDERSTOOD: [&str; 4] =
+    ["KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "KHR_node_visibility", "MSFT_lod"];
+/// Beginnings of the names of those that change nothing but looks.
+const LOOKS: [&str; 8] = [
+    "KHR_materials",
+    "KHR_texture",
+    "KHR_lights",
+    "KHR_xmp",
+    "EXT_texture",
+    "EXT_lights",
+    "EXT_structural_metadata",
+    "MSFT_texture",
+];
 
 /// Read the default scene; all meshes as they stand where there is none.
 ///
@@ -36,17 +49,32 @@ pub(in crate::io) fn read(path: &Path, job: &Job) -> Result<Soup> {
         numbers,
         soup: Soup::default(),
         passed: 0,
+        hidden: 0,
         room: COPIES.max(bytes.len() / 2),
     };
     reading.scene()?;
+    let hidden = reading.hidden;
     let mut soup = reading.soup;
     soup.note_count(reading.passed, "skipped", "primitives of points or lines");
-    let known = |e: &&String| !e.starts_with("KHR_materials") && *e != QUANTIZED;
-    let unknown: Vec<String> =
-        document.extensions_required.iter().filter(known).take(3).map(|e| scan::clip(e)).collect();
+    soup.note_count(hidden, "left out", "hidden nodes; show them before exporting to read them");
+    let known = |e: &&String| {
+        UNDERSTOOD.contains(&e.as_str()) || LOOKS.iter().any(|looks| e.starts_with(looks))
+    };
+    let unknown: Vec<String> = (document.extensions_required.iter())
+        .filter(|e| !known(e))
+        .take(3)
+        .map(|e| scan::clip(e))
+        .collect();
     if !unknown.is_empty() {
-        soup.notes
-            .push(format!("the file asks for {}, which is not understood", unknown.join(", ")));
+        soup.notes.push(format!(
+            "the file asks for {}, which is not understood: check the shape, or export it without",
+            unknown.join(", ")
+        ));
+    }
+    if soup.faces.is_empty()
+        && let Some(loss) = soup.losses.first()
+    {
+        return Err(scan::error(path, &*loss.what, &*loss.why));
     }
     Ok(Soup { unit: Some(LengthUnit::Metre), digits: Digits::Single, ..soup })
 }
@@ -82,6 +110,8 @@ struct Reading<'a> {
     soup: Soup,
     /// Primitives that are no triangles.
     passed: usize,
+    /// Nodes that are not shown.
+    hidden: usize,
     /// Corners and points that may still come.
     room: usize,
 }
@@ -90,7 +120,7 @@ impl Reading<'_> {
     fn scene(&mut self) -> Result<()> {
         let document = self.document;
         if document.nodes.is_empty() {
-            return (0..document.meshes.len()).try_for_each(|m| self.mesh(m, DMat4::IDENTITY));
+            return (0..document.meshes.len()).try_for_each(|m| self.mesh(m, &[], DMat4::IDENTITY));
         }
         let scene = document.scene.map_or(document.scenes.first(), |s| document.scenes.get(s));
         let roots = match scene {
@@ -109,43 +139,120 @@ impl Reading<'_> {
                     self.error(format!("node {n}"), "it is used twice: glTF allows one place")
                 );
             }
+            if node.extensions.visibility.as_ref().is_some_and(|v| !v.visible) {
+                self.hidden += 1;
+                continue;
+            }
             let place = above * transform(node);
             if !place.is_finite() {
                 return Err(self.error(format!("node {n}"), "its transform is not finite"));
             }
             if let Some(m) = node.mesh {
-                self.mesh(m, place)?;
+                self.copies(n, node, m, place)?;
             }
             open.extend(node.children.iter().rev().map(|&child| (child, place)));
         }
         Ok(())
     }
 
-    fn mesh(&mut self, m: usize, place: DMat4) -> Result<()> {
-        let document = self.document;
-        let Some(mesh) = document.meshes.get(m) else {
-            return Err(self.error("nodes", format!("mesh {m} is used, but there is none")));
+    /// The mesh of a node, as often as it says.
+    fn copies(&mut self, n: usize, node: &Node, m: usize, place: DMat4) -> Result<()> {
+        if node.skin.is_some() {
+            self.soup.losses.push(self.skinned(n, node, m));
+            return Ok(());
+        }
+        let Some(instancing) = &node.extensions.instancing else {
+            return self.mesh(m, &node.weights, place);
         };
-        for (k, primitive) in mesh.primitives.iter().enumerate() {
-            self.primitive(primitive, place, &format!("mesh {m}, primitive {k}"))?;
+        let places = &instancing.attributes;
+        let moved = places.translation.map(|a| self.numbers.rows::<3>(a)).transpose()?;
+        let turned = places.rotation.map(|a| self.numbers.rows::<4>(a)).transpose()?;
+        let scaled = places.scale.map(|a| self.numbers.rows::<3>(a)).transpose()?;
+        let counts = [
+            moved.as_ref().map(Vec::len),
+            turned.as_ref().map(Vec::len),
+            scaled.as_ref().map(Vec::len),
+        ];
+        let count = counts.into_iter().flatten().max().unwrap_or(1);
+        if counts.into_iter().flatten().any(|c| c != count) {
+            let message =
+                "its copies (EXT_mesh_gpu_instancing) have not as many places as turns and sizes";
+            return Err(self.error(format!("node {n}"), message));
+        }
+        for k in 0..count {
+            let at = |rows: &Option<Vec<[f64; 3]>>| rows.as_ref().map(|rows| rows[k]);
+            let [moved, scaled] = [at(&moved), at(&scaled)];
+            let turned = turned.as_ref().map(|rows| rows[k]);
+            self.mesh(m, &node.weights, place * placed(moved, turned, scaled))?;
         }
         Ok(())
     }
 
-    fn primitive(&mut self, primitive: &Primitive, place: DMat4, at: &str) -> Result<()> {
+    /// What is lost of a mesh whose vertices follow the bones of a skin.
+    fn skinned(&self, n: usize, node: &Node, m: usize) -> Loss {
+        let mesh = self.document.meshes.get(m);
+        let names = [mesh.map(|mesh| &mesh.name), Some(&node.name)];
+        let name = names.into_iter().flatten().find(|name| !name.is_empty());
+        let name = name.map(|name| format!(" `{}`", scan::clip(name))).unwrap_or_default();
+        let accessors = &self.document.accessors;
+        let corners = |p: &Primitive| {
+            p.indices
+                .or(p.attributes.position)
+                .and_then(|a| accessors.get(a))
+                .map_or(0, |a| a.count)
+        };
+        let faces = mesh.map_or(0, |mesh| mesh.primitives.iter().map(|p| corners(p) / 3).sum());
+        Loss {
+            what: format!("mesh {m}{name} (node {n})"),
+            why: "it is bent by a skin; apply the skin (the armature) and export it again".into(),
+            faces,
+            area: None,
+            whole: true,
+        }
+    }
+
+    /// A mesh, drawn so far towards its morph targets; as it says itself where no weights are given.
+    fn mesh(&mut self, m: usize, weights: &[f64], place: DMat4) -> Result<()> {
+        let document = self.document;
+        let Some(mesh) = document.meshes.get(m) else {
+            return Err(self.error("nodes", format!("mesh {m} is used, but there is none")));
+        };
+        let weights = if weights.is_empty() { &mesh.weights } else { weights };
+        for (k, primitive) in mesh.primitives.iter().enumerate() {
+            self.primitive(primitive, weights, place, &format!("mesh {m}, primitive {k}"))?;
+        }
+        Ok(())
+    }
+
+    fn primitive(
+        &mut self,
+        primitive: &Primitive,
+        weights: &[f64],
+        place: DMat4,
+        at: &str,
+    ) -> Result<()> {
         let mode = primitive.mode.unwrap_or(TRIANGLES);
         if !matches!(mode, TRIANGLES | STRIP | FAN) {
             self.passed += 1;
             return Ok(());
         }
-        if primitive.extensions.draco.is_some() {
-            return Err(self.error(at, "it is compressed (Draco); export it without compression"));
-        }
         let Some(position) = primitive.attributes.position else {
             return Err(self.error(at, "it has no positions"));
         };
+        // Some files hold the numbers as they are beside the compressed ones.
+        if primitive.extensions.draco.is_some() && !self.numbers.holds(position) {
+            let message =
+                "it is compressed (KHR_draco_mesh_compression); export it without compression";
+            return Err(self.error(at, message));
+        }
         let first = self.soup.points.len();
-        let points = self.numbers.points(position)?;
+        let mut points = self.numbers.points(position)?;
+        for (target, &weight) in primitive.targets.iter().zip(weights) {
+            let Some(moves) = target.position.filter(|_| weight != 0.0) else { continue };
+            for (p, d) in points.iter_mut().zip(self.numbers.points(moves)?) {
+                *p += d * weight;
+            }
+        }
         let count = points.len();
         let corners = match primitive.indices {
             Some(accessor) => self.numbers.indices(accessor)?,
@@ -180,10 +287,11 @@ const Z_UP: DMat4 = DMat4::from_cols_array(&[
     1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0,
 ]);
 
-/// The nodes that are nobody's children.
+/// The nodes that are nobody's children, and stand for no other that is far away.
 fn roots(nodes: &[Node]) -> Vec<usize> {
     let mut child = vec![false; nodes.len()];
-    for &c in nodes.iter().flat_map(|n| &n.children) {
+    let coarser = |n: &Node| n.extensions.coarser.as_ref().map_or(Vec::new(), |c| c.ids.clone());
+    for c in nodes.iter().flat_map(|n| n.children.iter().copied().chain(coarser(n))) {
         if let Some(child) = child.get_mut(c) {
             *child = true;
         }
@@ -195,15 +303,23 @@ fn transform(node: &Node) -> DMat4 {
     if let Some(matrix) = &node.matrix {
         return DMat4::from_cols_array(matrix);
     }
-    let vector = |v: &Option<Box<[f64; 3]>>, usual| v.as_ref().map_or(usual, |v| DVec3::from(**v));
-    let rotation = node.rotation.as_ref().map_or(DQuat::IDENTITY, |r| {
-        let turn = DQuat::from_array(**r);
+    placed(
+        node.translation.as_deref().copied(),
+        node.rotation.as_deref().copied(),
+        node.scale.as_deref().copied(),
+    )
+}
+
+/// Scaled, then turned by a quaternion, then moved.
+fn placed(moved: Option<[f64; 3]>, turned: Option<[f64; 4]>, scaled: Option<[f64; 3]>) -> DMat4 {
+    let turned = turned.map_or(DQuat::IDENTITY, |turn| {
+        let turn = DQuat::from_array(turn);
         if turn.length() > 0.0 && turn.is_finite() { turn.normalize() } else { DQuat::IDENTITY }
     });
     DMat4::from_scale_rotation_translation(
-        vector(&node.scale, DVec3::ONE),
-        rotation,
-        vector(&node.translation, DVec3::ZERO),
+        scaled.map_or(DVec3::ONE, DVec3::from),
+        turned,
+        moved.map_or(DVec3::ZERO, DVec3::from),
     )
 }
 

@@ -8,10 +8,9 @@ use crate::schedule::Schedule;
 
 /// The model and its place in the building.
 pub(super) fn put(w: &mut Step, grid: &GridFile, common: &Common, building: usize) {
-    let first = nodes(w, grid, common);
-    let members = members(w, grid, common, first);
-    let count = grid.schedule.nodes.xyz.len();
-    let all = references((0..count).map(|v| first.connection(v)).chain(members.iter().copied()));
+    let nodes = nodes(w, grid, common);
+    let members = members(w, grid, common, &nodes);
+    let all = references(nodes.connections().chain(members.iter().copied()));
     let id = w.id("analysis");
     let model = w.put(format_args!(
         "IFCSTRUCTURALANALYSISMODEL('{id}',$,'Frame',$,$,.LOADING_3D.,$,$,$,#{})",
@@ -25,22 +24,41 @@ pub(super) fn put(w: &mut Step, grid: &GridFile, common: &Common, building: usiz
 }
 
 /// Where the entities of nodes are.
-#[derive(Clone, Copy)]
 struct Nodes {
     /// The vertex of the first one.
     vertex: usize,
+    /// The place of each node's joint among those that are written.
+    place: Vec<usize>,
+    /// How many are written.
+    count: usize,
 }
 
 impl Nodes {
     /// Entities of a node: its vertex, representation, shape and connection.
     const EACH: usize = 4;
 
-    fn vertex(self, v: usize) -> usize {
-        self.vertex + Nodes::EACH * v
+    /// Those of these joints, behind the entity `last`: nodes at one place are one.
+    fn new(last: usize, joints: &[u32]) -> Nodes {
+        let (mut place, mut count) = (Vec::with_capacity(joints.len()), 0);
+        for (v, &joint) in joints.iter().enumerate() {
+            let own = joint as usize == v;
+            place.push(if own { count } else { place[joint as usize] });
+            count += usize::from(own);
+        }
+        Nodes { vertex: last + 1, place, count }
     }
 
-    fn connection(self, v: usize) -> usize {
+    fn vertex(&self, v: usize) -> usize {
+        self.vertex + Nodes::EACH * self.place[v]
+    }
+
+    fn connection(&self, v: usize) -> usize {
         self.vertex(v) + Nodes::EACH - 1
+    }
+
+    fn connections(&self) -> impl Iterator<Item = usize> {
+        let first = self.vertex + Nodes::EACH - 1;
+        (0..self.count).map(move |k| first + Nodes::EACH * k)
     }
 }
 
@@ -51,9 +69,10 @@ fn nodes(w: &mut Step, grid: &GridFile, common: &Common) -> Nodes {
     let hinge = w.put(format_args!(
         "IFCBOUNDARYNODECONDITION('Support',{held},{held},{held},{free},{free},{free})"
     ));
-    let supported = grid.supported();
-    let nodes = Nodes { vertex: w.last + 1 };
-    for v in 0..grid.schedule.nodes.xyz.len() {
+    let joints = grid.joints();
+    let supported = grid.held(&joints);
+    let nodes = Nodes::new(w.last, &joints);
+    for v in (0..joints.len()).filter(|&v| joints[v] as usize == v) {
         let vertex = w.put(format_args!("IFCVERTEXPOINT(#{})", points + v));
         let shape = w.put(format_args!(
             "IFCTOPOLOGYREPRESENTATION(#{reference},'Reference','Vertex',(#{vertex}))"
@@ -69,7 +88,7 @@ fn nodes(w: &mut Step, grid: &GridFile, common: &Common) -> Nodes {
 }
 
 /// All members, joined to their nodes; gives their numbers.
-fn members(w: &mut Step, grid: &GridFile, common: &Common, nodes: Nodes) -> Vec<usize> {
+fn members(w: &mut Step, grid: &GridFile, common: &Common, nodes: &Nodes) -> Vec<usize> {
     let Common { placement, reference, .. } = common;
     let Schedule { members, .. } = grid.schedule;
     let mut numbers = Vec::with_capacity(members.ends.len());

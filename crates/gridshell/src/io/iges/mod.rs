@@ -8,7 +8,6 @@
 //! all work is counted, so a file that is wrong ends in an error, not in a hang.
 
 mod arc;
-mod bezier;
 mod curves;
 mod directory;
 mod global;
@@ -21,7 +20,9 @@ mod surfaces;
 mod tokens;
 mod trimmed;
 
+use super::bezier;
 use crate::error::{Error, Result};
+use crate::io::READING;
 use crate::job::Job;
 use crate::surface::brep::Brep;
 use crate::surface::{Source, Unit};
@@ -104,6 +105,7 @@ pub fn read(path: &Path, job: &Job) -> Result<Brep> {
     let io = |source| Error::Io { path: path.to_path_buf(), source };
     let fault =
         |f: Fault| Error::Parse { path: path.to_path_buf(), place: f.place, message: f.what };
+    job.check(READING)?;
     if fs::metadata(path).map_err(io)?.len() > MOST_BYTES {
         return Err(fault(Fault::new("file", format!("larger than {} MB", MOST_BYTES >> 20))));
     }

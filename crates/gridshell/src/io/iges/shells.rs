@@ -99,7 +99,7 @@ impl File<'_> {
         if loops.is_empty() && sheet.is_part() {
             return Err(p.fault("a face without loops on a part of its surface is not read"));
         }
-        brep.faces.push(BrepFace { shape: sheet.shape, loops, reversed });
+        brep.faces.push(BrepFace { shape: sheet.shape, loops, reversed, label: entry.place() });
         Ok(())
     }
 

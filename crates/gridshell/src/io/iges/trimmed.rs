@@ -139,7 +139,7 @@ impl File<'_> {
         }
         let shape = Shape::clone(&shape);
         let open = outer.is_none() && !part && !rings.is_empty();
-        scrap.faces.push(BrepFace { shape, loops: rings, reversed: false });
+        scrap.faces.push(BrepFace { shape, loops: rings, reversed: false, label: entry.place() });
         if open {
             bound(&mut scrap, 0).map_err(|e| entry.fault(e.to_string()))?;
         }

@@ -233,7 +233,8 @@ impl<'m> Reading<'m> {
         let points = self.control_points(&loops);
         let shape = shape::of_face(self.model, face, place, &points)?;
         let reversed = face.orientation() == Orientation::Reversed;
-        Ok(BrepFace { shape, loops, reversed })
+        let label = self.names.get(&face.key()).map(|id| format!("#{id}")).unwrap_or_default();
+        Ok(BrepFace { shape, loops, reversed, label })
     }
 
     fn bound(&mut self, bound: &Bound, place: DMat4, copy: usize) -> Result<Vec<Coedge>, String> {

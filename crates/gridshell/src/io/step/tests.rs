@@ -111,7 +111,7 @@ fn text_that_is_no_step_file_is_an_error() {
 
 #[test]
 fn missing_file_is_named() {
-    let e = read(Path::new("no/such/roof.step")).unwrap_err().to_string();
+    let e = read(Path::new("no/such/roof.step"), &Job::default()).unwrap_err().to_string();
     assert!(e.contains("roof.step"), "{e}");
 }
 

@@ -25,7 +25,7 @@ fn wheel(n: u32, z: f64) -> (Grid, Surface) {
 }
 
 fn measured((grid, surface): &(Grid, Surface)) -> Quality {
-    measure(grid, surface, 1.0, &OPTIONS, &Job::default())
+    measure(grid, surface, 1.0, &OPTIONS)
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn a_crooked_node_has_sigma_and_tau() {
     let (mut grid, surface) = wheel(6, 0.0);
     let a = 6f64.to_radians();
     grid.xyz[1] = DVec3::new(trig::cos(a), trig::sin(a), 0.0);
-    let quality = measure(&grid, &surface, 1.0, &OPTIONS, &Job::default());
+    let quality = measure(&grid, &surface, 1.0, &OPTIONS);
     close(quality.delta_deg, 36f64.sqrt());
 }
 
@@ -161,7 +161,7 @@ fn a_node_off_the_surface_and_off_the_boundary_shows() {
     let (mut grid, surface) = wheel(6, 0.0);
     grid.xyz[0].z = 0.25;
     grid.xyz[1].x += 0.1;
-    let quality = measure(&grid, &surface, 2.0, &OPTIONS, &Job::default());
+    let quality = measure(&grid, &surface, 2.0, &OPTIONS);
     close(quality.surface_deviation, 0.125);
     close(quality.boundary_deviation, 0.05);
 }
@@ -171,7 +171,7 @@ fn a_panel_turned_over_is_folded() {
     // The hub dragged over the side between nodes 1 and 2 turns that one panel over.
     let (mut grid, surface) = wheel(6, 0.0);
     grid.xyz[0] = DVec3::new(1.0, 0.7, 0.0);
-    assert_eq!(measure(&grid, &surface, 1.0, &OPTIONS, &Job::default()).folded_panels, 1);
+    assert_eq!(measure(&grid, &surface, 1.0, &OPTIONS).folded_panels, 1);
 }
 
 #[test]
@@ -179,7 +179,7 @@ fn a_grid_read_inside_out_is_turned() {
     let (grid, surface) = wheel(6, 0.1);
     let inwards: Vec<[u32; 3]> = grid.mesh.triangles().map(|[a, b, c]| [a, c, b]).collect();
     let read = Grid::from_panels(grid.xyz.clone(), &inwards, &surface).expect("a disc");
-    assert_eq!(measure(&read, &surface, 1.0, &OPTIONS, &Job::default()).folded_panels, 0);
+    assert_eq!(measure(&read, &surface, 1.0, &OPTIONS).folded_panels, 0);
     assert_eq!(read.mesh.triangles().next(), grid.mesh.triangles().next());
 }
 
@@ -206,9 +206,9 @@ fn a_member_between_two_sheets_is_a_bridge_and_one_at_a_concave_border_is_not() 
         DVec3::new(2.5, 0.0, 0.4),
     ];
     let honest = Grid::from_panels(nodes[..3].to_vec(), &[[0, 1, 2]], &surface).expect("a panel");
-    assert_eq!(measure(&honest, &surface, 1.0, &OPTIONS, &Job::default()).bridging_members, 0);
+    assert_eq!(measure(&honest, &surface, 1.0, &OPTIONS).bridging_members, 0);
     let leaping = Grid::from_panels(nodes, &[[0, 1, 2], [1, 0, 3]], &surface).expect("two panels");
-    assert_eq!(measure(&leaping, &surface, 1.0, &OPTIONS, &Job::default()).bridging_members, 2);
+    assert_eq!(measure(&leaping, &surface, 1.0, &OPTIONS).bridging_members, 2);
 
     // A ring between radius 2 and 4: the chord of a member along the inner circle lies in the hole.
     let ring = |r: f64, k: u32| {
@@ -225,5 +225,5 @@ fn a_member_between_two_sheets_is_a_bridge_and_one_at_a_concave_border_is_not() 
     let surface = Surface::from_facets("ring", xyz, facets);
     let nodes = vec![ring(2.0, 0), ring(3.5, 3), ring(2.0, 6)];
     let grid = Grid::from_panels(nodes, &[[0, 1, 2]], &surface).expect("a panel");
-    assert_eq!(measure(&grid, &surface, 1.5, &OPTIONS, &Job::default()).bridging_members, 0);
+    assert_eq!(measure(&grid, &surface, 1.5, &OPTIONS).bridging_members, 0);
 }

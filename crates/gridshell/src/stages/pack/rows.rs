@@ -187,7 +187,7 @@ mod tests {
             .expect("built in")
             .surface(&sampling, &Job::default())
             .expect(name);
-        let chart = Chart::flatten(&surface, &Job::default()).expect("it has a chart");
+        let chart = Chart::flatten(&surface, &Job::default()).unwrap().expect("it has a chart");
         let pieces = pieces(&surface);
         let counts: Vec<usize> = pieces.iter().map(|p| member_count(p, length)).collect();
         let boundary = place(&surface, &pieces, &counts, 0.0);

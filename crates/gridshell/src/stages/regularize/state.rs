@@ -446,7 +446,8 @@ mod tests {
         let mut bubbles = Bubbles { boundary, features, fixed, interior: Vec::new() };
         let held = bubbles.xyz(surface);
         let mut rng = fastrand::Rng::with_seed(3);
-        bubbles.interior = pack::scatter(surface, 80, &held, 0.5 * LENGTH, &mut rng);
+        bubbles.interior =
+            pack::scatter(surface, 80, &held, 0.5 * LENGTH, &mut rng, &Job::default());
         triangulate::triangulate(surface, &bubbles, &Job::default()).expect("a manifold").0
     }
 

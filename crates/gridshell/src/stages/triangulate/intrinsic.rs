@@ -1,7 +1,10 @@
 //! An intrinsic triangulation: a mesh with edge lengths measured along the surface.
+//!
+//! Every triangle can be laid into the plane: the lengths of its sides satisfy the triangle inequality with
+//! [`ROOM`]. Edges of the boundary and of features are the exception. They follow the surface's lines however
+//! those bend, and no edit flips them: one that is too long for a triangle beside it counts there as just
+//! short enough.
 
-use super::PHASE;
-use crate::job::Job;
 use crate::mesh::{Mesh, Undo};
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
@@ -12,47 +15,133 @@ pub struct Intrinsic {
     /// Per vertex: (neighbour with a higher id, length).
     lengths: Vec<SmallVec<[(u32, f64); 4]>>,
     /// Edges that may have ceased to be Delaunay.
-    suspects: Vec<(u32, u32)>,
-    undo: Undo,
+    pub(super) suspects: Vec<(u32, u32)>,
+    /// What takes back the edits since the last commit: the mesh's part, and lengths as they were.
+    pub(super) undo: Undo,
+    was: Vec<(u32, u32, Option<f64>)>,
+    /// Commits so far, and the last one that touched each vertex.
+    commits: u32,
+    touched: Vec<u32>,
+    /// What has been done.
+    pub work: Work,
 }
 
-/// More than a full turn is round a vertex where the surface is a saddle, so that its last four neighbours may
-/// lie such that no edge can be flipped away from it. This much of an edge it may be on the wrong side of the
-/// new one: the vertex goes next, and with it what was wrong.
-const SADDLE: f64 = 0.1;
+/// What triangulating took. Both counts are bounded by a multiple of the vertices, whatever their triangles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Vertices there were: those of the carrier, and the bubbles.
+    pub vertices: usize,
+    /// Edges looked at: for being Delaunay, or for being flipped away from a vertex that is to go.
+    pub looks: usize,
+    /// Edges flipped, those flipped back included.
+    pub flips: usize,
+    /// Whether the bound was reached: not all edges are Delaunay then, or not all vertices gone.
+    pub cut_short: bool,
+}
+
+impl Work {
+    /// In words; None where the carrier was not touched.
+    pub fn note(&self) -> Option<String> {
+        let &Work { vertices, looks, flips, .. } = self;
+        let count = format!("{looks} looks and {flips} flips at {vertices} vertices");
+        (vertices > 0).then_some(count)
+    }
+}
+
+/// The longest side of a triangle is shorter than the other two together by this share of them. Lengths are
+/// rounded at 1e-16 of themselves, so the height of the flattest triangle (a millionth of its base) is still
+/// known to four digits; and nothing that a designer draws is as flat.
+const ROOM: f64 = 1e-12;
 
 impl Intrinsic {
     /// The triangulation of a carrier, with straight edges.
     pub fn new(mesh: Mesh, xyz: &[DVec3]) -> Intrinsic {
         let lengths = vec![SmallVec::new(); mesh.slots()];
         let edges: Vec<(u32, u32)> = mesh.edges().collect();
-        let mut this = Intrinsic { mesh, lengths, suspects: Vec::new(), undo: Undo::default() };
+        let mut this = Intrinsic {
+            mesh,
+            lengths,
+            suspects: Vec::new(),
+            undo: Undo::default(),
+            was: Vec::new(),
+            commits: 0,
+            touched: Vec::new(),
+            work: Work::default(),
+        };
         for (a, b) in edges {
             this.set_length(a, b, xyz[a as usize].distance(xyz[b as usize]));
         }
+        this.was.clear();
         this
     }
 
-    fn length(&self, a: u32, b: u32) -> f64 {
-        let (a, b) = (a.min(b), a.max(b));
-        self.lengths[a as usize].iter().find(|e| e.0 == b).expect("every edge has a length").1
+    /// Length of an edge as it is kept.
+    pub(super) fn length(&self, a: u32, b: u32) -> f64 {
+        self.known_length(a, b).expect("every edge has a length")
     }
 
-    fn set_length(&mut self, a: u32, b: u32, length: f64) {
+    fn known_length(&self, a: u32, b: u32) -> Option<f64> {
+        let (a, b) = (a.min(b), a.max(b));
+        self.lengths[a as usize].iter().find(|e| e.0 == b).map(|e| e.1)
+    }
+
+    pub(super) fn set_length(&mut self, a: u32, b: u32, length: f64) {
+        self.was.push((a, b, None));
         let (a, b) = (a.min(b), a.max(b));
         if self.lengths.len() < self.mesh.slots() {
             self.lengths.resize(self.mesh.slots(), SmallVec::new());
         }
         let list = &mut self.lengths[a as usize];
         match list.iter_mut().find(|e| e.0 == b) {
-            Some(e) => e.1 = length,
+            Some(e) => {
+                let old = std::mem::replace(&mut e.1, length);
+                if let Some(was) = self.was.last_mut() {
+                    was.2 = Some(old);
+                }
+            }
             None => list.push((b, length)),
         }
     }
 
-    fn forget_length(&mut self, a: u32, b: u32) {
+    pub(super) fn forget_length(&mut self, a: u32, b: u32) {
+        let old = self.known_length(a, b);
+        self.was.push((a, b, old));
         let (a, b) = (a.min(b), a.max(b));
         self.lengths[a as usize].retain(|e| e.0 != b);
+    }
+
+    /// Keep the edits since the last commit.
+    pub(super) fn commit(&mut self) {
+        self.commits += 1;
+        for v in self.undo.touched() {
+            self.touched[v as usize] = self.commits;
+        }
+        self.undo.clear();
+        self.was.clear();
+    }
+
+    /// Take back the edits since the last commit.
+    pub(super) fn take_back(&mut self) {
+        self.mesh.take_back(&mut self.undo);
+        while let Some((a, b, old)) = self.was.pop() {
+            match old {
+                Some(length) => self.set_length(a, b, length),
+                None => self.forget_length(a, b),
+            }
+            self.was.pop();
+        }
+        self.suspects.clear();
+    }
+
+    /// Commits so far.
+    pub(super) fn now(&self) -> u32 {
+        self.commits
+    }
+
+    /// The last commit that touched `v` or a neighbour of it.
+    pub(super) fn touched_round(&self, v: u32) -> u32 {
+        let ring = self.mesh.ring(v).iter().map(|&w| self.touched[w as usize]);
+        ring.fold(self.touched[v as usize], u32::max)
     }
 
     /// Put a vertex into a triangle, at these distances from its corners.
@@ -61,6 +150,7 @@ impl Intrinsic {
         for k in 0..3 {
             self.set_length(corners[k], m, distances[k]);
         }
+        self.was.clear();
         m
     }
 
@@ -79,181 +169,148 @@ impl Intrinsic {
         self.set_length(a, m, whole * share);
         self.set_length(m, b, whole * (1.0 - share));
         self.set_length(m, c, apex.distance(DVec2::new(whole * share, 0.0)));
+        self.was.clear();
         m
+    }
+
+    /// All vertices are in. Where triangles are flat or corners coincide, all edges are lengthened alike, by so
+    /// little that no length a designer cares about changes, and just enough that every triangle has room
+    /// (Sharp & Crane, *A Laplacian for nonmanifold triangle meshes*, 2020, Section 4.5).
+    pub fn complete(&mut self) {
+        self.work.vertices = self.mesh.vertex_count();
+        self.touched = vec![0; self.mesh.slots()];
+        let lack = |[a, b, c]: [u32; 3]| {
+            let sides = [self.length(a, b), self.length(b, c), self.length(c, a)];
+            let (longest, others) = split_longest(&sides);
+            sides[longest] - others * (1.0 - 2.0 * ROOM)
+        };
+        let most = self.mesh.triangles().map(lack).fold(f64::NEG_INFINITY, f64::max);
+        if most < 0.0 {
+            return;
+        }
+        // Two corners may coincide in a triangle of no extent at all.
+        let least = self.lengths.iter().flatten().fold(0.0, |m, e| e.1.max(m)) * ROOM;
+        let more = (2.0 * most).max(least);
+        for e in self.lengths.iter_mut().flatten() {
+            e.1 += more;
+        }
+    }
+
+    /// Whether no edit flips the edge: it is on the boundary or on a feature.
+    fn is_tied(&self, a: u32, b: u32) -> bool {
+        self.mesh.is_feature_edge(a, b) || self.mesh.is_boundary_edge(a, b)
+    }
+
+    /// Whether a triangle could have these corners, `across` being the length of the edge from the first to the
+    /// second, which need not exist.
+    pub(super) fn fits(&self, [a, b, c]: [u32; 3], across: f64) -> bool {
+        let sides = [across, self.length(b, c), self.length(c, a)];
+        let (longest, others) = split_longest(&sides);
+        sides[longest] <= others * (1.0 - ROOM)
+            || [false, self.is_tied(b, c), self.is_tied(c, a)][longest]
+    }
+
+    /// Whether the triangle can be laid into the plane, its tied edges being shortened where they must.
+    pub(super) fn is_sound(&self, [a, b, c]: [u32; 3]) -> bool {
+        self.fits([a, b, c], self.length(a, b)) || {
+            let sides = [self.length(a, b), self.length(b, c), self.length(c, a)];
+            split_longest(&sides).0 == 0 && self.is_tied(a, b)
+        }
+    }
+
+    /// Make room in a triangle whose longest side is too long: shorten that, or lengthen the others, whichever
+    /// leaves room on their far sides.
+    pub(super) fn make_room(&mut self, [a, b, c]: [u32; 3]) -> bool {
+        let edges = [(a, b), (b, c), (c, a)];
+        let sides = edges.map(|(a, b)| self.length(a, b));
+        let (longest, others) = split_longest(&sides);
+        let (p, q) = edges[longest];
+        self.set_length(p, q, others * (1.0 - 2.0 * ROOM));
+        if self.is_sound_beside(p, q) {
+            return true;
+        }
+        self.set_length(p, q, sides[longest]);
+        let more = 0.5 * (sides[longest] * (1.0 + 4.0 * ROOM) - others);
+        let two = [(longest + 1) % 3, (longest + 2) % 3];
+        for k in two {
+            self.set_length(edges[k].0, edges[k].1, sides[k] + more);
+        }
+        two.iter().all(|&k| self.is_sound_beside(edges[k].0, edges[k].1))
+    }
+
+    fn is_sound_beside(&self, a: u32, b: u32) -> bool {
+        let apexes = [self.mesh.left(a, b), self.mesh.right(a, b)];
+        apexes.into_iter().flatten().all(|c| self.is_sound([a, b, c]))
+    }
+
+    /// The sides of triangle (a, b, c), from a to b first, as it is laid into the plane.
+    pub(super) fn sides(&self, a: u32, b: u32, c: u32) -> [f64; 3] {
+        planar([self.length(a, b), self.length(b, c), self.length(c, a)])
     }
 
     /// Triangle (a, b, c) laid into the plane with a at the origin and b on the x axis: where c is, above.
     fn apex(&self, a: u32, b: u32, c: u32) -> DVec2 {
-        let (ab, ac, bc) = (self.length(a, b), self.length(a, c), self.length(b, c));
-        let x = (ab * ab + ac * ac - bc * bc) / (2.0 * ab);
-        DVec2::new(x, (ac * ac - x * x).max(0.0).sqrt())
+        let sides = self.sides(a, b, c);
+        let [ab, bc, ac] = sides;
+        let x = 0.5 * (ab + (ac - bc) * (ac + bc) / ab);
+        DVec2::new(x, 2.0 * area(sides) / ab)
     }
 
     /// The two triangles at the edge laid into the plane: length of the edge, left apex (above), right apex
     /// (below). None on the boundary.
-    fn quad(&self, a: u32, b: u32) -> Option<(f64, DVec2, DVec2)> {
+    pub(super) fn quad(&self, a: u32, b: u32) -> Option<Quad> {
         let (c, d) = (self.mesh.left(a, b)?, self.mesh.right(a, b)?);
         let below = self.apex(a, b, d);
-        Some((self.length(a, b), self.apex(a, b, c), DVec2::new(below.x, -below.y)))
+        Some(Quad {
+            length: self.length(a, b),
+            left: c,
+            right: d,
+            above: self.apex(a, b, c),
+            below: DVec2::new(below.x, -below.y),
+        })
+    }
+}
+
+/// An edge along the x axis from the origin, and the apexes of its triangles laid into the plane.
+pub struct Quad {
+    pub length: f64,
+    pub left: u32,
+    pub right: u32,
+    pub above: DVec2,
+    pub below: DVec2,
+}
+
+impl Quad {
+    /// Length of the other diagonal.
+    pub fn across(&self) -> f64 {
+        self.above.distance(self.below)
     }
 
-    /// Whether the edge is Delaunay: its two opposite angles sum to at most pi.
-    fn is_delaunay(&self, a: u32, b: u32) -> bool {
-        let Some((l, c, d)) = self.quad(a, b) else { return true };
-        let b = DVec2::new(l, 0.0);
-        // The sine of the sum of the two angles is negative when they exceed pi.
-        let (u, v) = ((-c, b - c), (b - d, -d));
-        let sine = u.0.perp_dot(u.1) * v.0.dot(v.1) + u.0.dot(u.1) * v.0.perp_dot(v.1);
-        let scale = u.0.length_squared()
-            * u.1.length_squared()
-            * v.0.length_squared()
-            * v.1.length_squared();
-        sine >= -1e-9 * scale.sqrt()
+    /// Where the line between the apexes crosses the axis, as a share of the edge.
+    pub fn crossing(&self) -> f64 {
+        let (c, d) = (self.above, self.below);
+        (c.x + (d.x - c.x) * c.y / (c.y - d.y).max(f64::MIN_POSITIVE)) / self.length
     }
+}
 
-    /// Flip the edge if topology allows; the new edge gets the length across.
-    fn flip(&mut self, a: u32, b: u32) -> bool {
-        let Some((_, c, d)) = self.quad(a, b) else { return false };
-        let Ok((p, q)) = self.mesh.try_flip(a, b, &mut self.undo) else { return false };
-        self.undo.clear();
-        self.forget_length(a, b);
-        self.set_length(p, q, c.distance(d));
-        self.suspects.extend([(a, p), (p, b), (b, q), (q, a)]);
-        true
-    }
+/// The longest side of a triangle, and the sum of the others.
+fn split_longest(sides: &[f64; 3]) -> (usize, f64) {
+    let longest = (1..3).fold(0, |best, k| if sides[k] > sides[best] { k } else { best });
+    (longest, sides[(longest + 1) % 3] + sides[(longest + 2) % 3])
+}
 
-    /// Flip until every edge is Delaunay (Lawson).
-    pub fn make_delaunay(&mut self, job: &Job) {
-        self.suspects = self.mesh.edges().collect();
-        self.settle(job);
-    }
+/// The sides of a triangle, the longest shortened where it would leave no room.
+pub(super) fn planar(mut sides: [f64; 3]) -> [f64; 3] {
+    let (longest, others) = split_longest(&sides);
+    sides[longest] = sides[longest].min(others * (1.0 - ROOM));
+    sides
+}
 
-    fn settle(&mut self, job: &Job) {
-        // Lawson's flips end by themselves; rounding and refused flips are what the limit guards against.
-        let mut budget = 100 * self.suspects.len() + 10_000;
-        while let Some((a, b)) = self.suspects.pop() {
-            if budget == 0 || job.is_over(PHASE) {
-                self.suspects.clear();
-                return;
-            }
-            if self.mesh.adjacent(a, b) && !self.is_delaunay(a, b) {
-                budget -= 1;
-                self.flip(a, b);
-            }
-        }
-    }
-
-    /// Remove these vertices, keeping the rest Delaunay; gives those that cannot go without changing the
-    /// surface's topology. Of no use where the job is over: the caller is to check.
-    pub fn remove_all(&mut self, mut vertices: Vec<u32>, job: &Job) -> Vec<u32> {
-        loop {
-            let before = vertices.len();
-            vertices.retain(|&v| {
-                if job.is_over(PHASE) {
-                    return false;
-                }
-                let gone = self.remove(v);
-                self.settle(job);
-                !gone
-            });
-            if vertices.is_empty() || vertices.len() == before {
-                return vertices;
-            }
-        }
-    }
-
-    /// Flip edges away from `v` until it hangs by three (inside) or two or three (boundary), then take it.
-    fn remove(&mut self, v: u32) -> bool {
-        if let &[p, q] = self.mesh.along_features(v) {
-            return self.remove_from_feature(v, p, q);
-        }
-        while self.mesh.degree(v) > 3 {
-            let ring: SmallVec<[u32; 8]> = self.mesh.ring(v).into();
-            let shortest = |reflex: f64| {
-                let lengths =
-                    ring.iter().filter_map(|&w| Some((self.flipped_length(v, w, reflex)?, w)));
-                lengths.min_by(|x, y| x.0.total_cmp(&y.0))
-            };
-            match shortest(0.0).or_else(|| shortest(SADDLE)) {
-                Some((_, w)) if self.flip(v, w) => {}
-                _ => return false,
-            }
-        }
-        let ring: SmallVec<[u32; 8]> = self.mesh.ring(v).into();
-        let (first, last) = (ring[0], ring[ring.len() - 1]);
-        let boundary = self.mesh.is_boundary(v);
-        let along = self.length(v, first) + self.length(v, last);
-        if self.mesh.try_collapse(last, v, &mut self.undo).is_err() {
-            return false;
-        }
-        self.undo.clear();
-        for &w in &ring {
-            self.forget_length(v, w);
-        }
-        if boundary && ring.len() == 3 {
-            // The boundary between two nodes is one member, however it bends.
-            self.set_length(first, last, along);
-        }
-        for i in 0..ring.len() {
-            self.suspects.push((ring[i], ring[(i + 1) % ring.len()]));
-        }
-        true
-    }
-
-    /// Flip edges away from `v`, which is on a feature between `p` and `q`, until it hangs by one on either side,
-    /// then take it: the feature leads from `p` to `q`.
-    fn remove_from_feature(&mut self, v: u32, p: u32, q: u32) -> bool {
-        for (from, to) in [(p, q), (q, p)] {
-            loop {
-                let side = self.between(v, from, to);
-                if side.len() <= 1 {
-                    break;
-                }
-                let shortest = |reflex: f64| {
-                    let lengths =
-                        side.iter().filter_map(|&w| Some((self.flipped_length(v, w, reflex)?, w)));
-                    lengths.min_by(|x, y| x.0.total_cmp(&y.0))
-                };
-                match shortest(0.0).or_else(|| shortest(SADDLE)) {
-                    Some((_, w)) if self.flip(v, w) => {}
-                    _ => return false,
-                }
-            }
-        }
-        let ring: SmallVec<[u32; 8]> = self.mesh.ring(v).into();
-        let along = self.length(v, p) + self.length(v, q);
-        if self.mesh.try_collapse(q, v, &mut self.undo).is_err() {
-            return false;
-        }
-        self.undo.clear();
-        for &w in &ring {
-            self.forget_length(v, w);
-        }
-        // The feature between two nodes is one member, however it bends.
-        self.set_length(p, q, along);
-        for i in 0..ring.len() {
-            self.suspects.push((ring[i], ring[(i + 1) % ring.len()]));
-        }
-        true
-    }
-
-    /// The neighbours of `v` counter-clockwise after `from` and before `to`.
-    fn between(&self, v: u32, from: u32, to: u32) -> SmallVec<[u32; 8]> {
-        let ring = self.mesh.ring(v);
-        let at = self.mesh.position(v, from).expect("features join neighbours");
-        let onward = (1..ring.len()).map(|i| ring[(at + i) % ring.len()]);
-        onward.take_while(|&w| w != to).collect()
-    }
-
-    /// Length of the edge that flipping (v, w) would make; None unless the two triangles form a convex
-    /// quadrilateral and the new edge does not exist yet. At v it may be reflex by a share of the edge.
-    fn flipped_length(&self, v: u32, w: u32, reflex: f64) -> Option<f64> {
-        let (l, c, d) = self.quad(v, w)?;
-        if self.mesh.adjacent(self.mesh.left(v, w)?, self.mesh.right(v, w)?) {
-            return None;
-        }
-        // Where the line from c to d crosses the axis of the edge.
-        let x = c.x + (d.x - c.x) * c.y / (c.y - d.y).max(f64::MIN_POSITIVE);
-        (x > -reflex * l && x < l * (1.0 - 1e-12)).then(|| c.distance(d))
-    }
+/// Area of a triangle with these sides: Heron's formula in the order that rounding cannot spoil, however thin
+/// the triangle (Kahan, *Miscalculating area and angles of a needle-like triangle*, 2014).
+pub(super) fn area(mut sides: [f64; 3]) -> f64 {
+    sides.sort_by(|x, y| y.total_cmp(x));
+    let [a, b, c] = sides;
+    let square = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+    0.25 * square.max(0.0).sqrt()
 }

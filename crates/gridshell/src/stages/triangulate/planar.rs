@@ -39,8 +39,13 @@ pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles, job: &Jo
     }
     let on_loop = |c: &ChainPoint| {
         let chain = &surface.loops[c.chain as usize];
-        let corner = chain.corners.iter().any(|&k| chain.arc[k as usize] == c.s);
-        if corner { Place::Corner(*c) } else { Place::Boundary(*c) }
+        let k = chain.corners.partition_point(|&k| chain.arc[k as usize] < c.s);
+        let corner = chain.corners.get(k);
+        if corner.is_some_and(|&k| chain.arc[k as usize] == c.s) {
+            Place::Corner(*c)
+        } else {
+            Place::Boundary(*c)
+        }
     };
     let inside = bubbles.interior.iter().map(|&p| Place::Interior(p));
     let on_feature = bubbles.features.iter().map(|&c| Place::Feature(c));

@@ -55,7 +55,7 @@ impl Sketch {
 
     /// Add a face whose outside is along `du x dv`.
     pub(super) fn face(&mut self, shape: Shape, loops: Vec<Vec<Coedge>>) {
-        self.brep.faces.push(BrepFace { shape, loops, reversed: false });
+        self.brep.faces.push(BrepFace { shape, loops, reversed: false, label: String::new() });
     }
 
     /// The B-rep.

@@ -11,7 +11,12 @@ fn patch(corners: [[f64; 3]; 4]) -> BrepFace {
     let [a, b, c, d] = corners.map(DVec3::from);
     let knots = || vec![0.0, 0.0, 1.0, 1.0];
     let sheet = NurbsSurface::new([1, 1], [knots(), knots()], [2, 2], vec![a, d, b, c], vec![]);
-    BrepFace { shape: Shape::Nurbs(sheet.unwrap()), loops: Vec::new(), reversed: false }
+    BrepFace {
+        shape: Shape::Nurbs(sheet.unwrap()),
+        loops: Vec::new(),
+        reversed: false,
+        label: String::new(),
+    }
 }
 
 /// A level rectangle.

@@ -3,6 +3,7 @@
 use super::net::Net;
 use super::patch::square_to;
 use crate::math::trig;
+use crate::surface::chain::exceeds;
 use glam::DVec3;
 
 /// Where two sides turn so plainly, a line between them runs as their planes meet.
@@ -36,7 +37,7 @@ impl Lines {
             let [before, after] = *ends.as_slice() else { return None };
             let [p, q, r] = [before, v as u32, after].map(|v| net.points[v as usize]);
             let (come, go) = (q - p, r - q);
-            let smooth = trig::angle(come, go) <= corner_angle;
+            let smooth = !exceeds(trig::angle(come, go), corner_angle);
             // The tangent of the circle through the three.
             let tangent =
                 come.normalize_or_zero() * go.length() + go.normalize_or_zero() * come.length();
