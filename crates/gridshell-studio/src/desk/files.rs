@@ -23,7 +23,7 @@ impl Desk {
         let job = &self.opening();
         if is_grid(path) {
             return self
-                .put_grid(io::read_document(path, &self.job())?, Some(path), |laid| laid)
+                .put_grid(io::read_document(path, job)?, Some(path), |laid| laid)
                 .map(|_| ());
         }
         self.put(&Arc::new(Opened::named(name_or_path, &Opening::default(), job)?));
