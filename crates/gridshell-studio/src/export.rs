@@ -1,10 +1,10 @@
 //! What is kept, as files.
 
 use crate::laid::{Finished, Laid};
-use gridshell::job::Job;
 use gridshell::error::{Error, Result};
 use gridshell::grid::Grid;
 use gridshell::io::{self, Document, GridFile};
+use gridshell::job::Job;
 use gridshell::run::Run;
 use gridshell::schedule::Schedule;
 use gridshell::stages::measure::{Quality, irregular_nodes};
