@@ -67,6 +67,7 @@ enum Rest {
 }
 
 /// The words of the file, each with its line.
+#[allow(clippy::struct_field_names, reason = "it is what the field holds")]
 #[derive(Clone)]
 struct Words<'a> {
     path: &'a Path,

@@ -24,6 +24,7 @@ pub(super) fn lines<'a>(path: &'a Path, text: &'a str, job: &'a Job) -> Lines<'a
 }
 
 /// What [`lines`] gives.
+#[allow(clippy::struct_field_names, reason = "it is what the field holds")]
 #[derive(Clone)]
 pub(super) struct Lines<'a> {
     path: &'a Path,

@@ -339,7 +339,7 @@ impl Taken {
 
     /// Width of the cells of a level.
     fn width(&self, level: usize) -> f64 {
-        self.cell / (1_u32 << level) as f64
+        self.cell / f64::from(1_u32 << level)
     }
 
     fn push(&mut self, point: DVec3, normal: DVec3, size: f64) {

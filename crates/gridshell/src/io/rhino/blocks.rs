@@ -43,6 +43,7 @@ struct Placed {
 }
 
 /// A place of a member of a block.
+#[allow(clippy::struct_field_names, reason = "it is what the field holds")]
 #[derive(Clone)]
 pub(super) struct Place {
     member: String,

@@ -79,7 +79,9 @@ impl Reading<'_> {
                 "SubD" => {}
                 "mesh" => {
                     let mut mesh = Meshed::new(object, None);
-                    shown_by.iter().for_each(|m| mesh.add(m));
+                    for m in shown_by {
+                        mesh.add(m);
+                    }
                     self.meshed.push(mesh);
                 }
                 _ => self.instead(object, shown_by),
