@@ -37,7 +37,6 @@ impl Failure {
     }
 
     /// For whatever went wrong while opening the input, a name that is none included.
-    #[expect(clippy::needless_pass_by_value, reason = "the shape that map_err wants")]
     pub fn of_input(error: Error) -> Failure {
         match error {
             Error::Stopped { .. } | Error::Memory(_) => Failure::from(error),

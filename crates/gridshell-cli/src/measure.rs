@@ -59,7 +59,8 @@ pub fn run(args: &Measure, work: &Work) -> Result<Outcome, Failure> {
         })?;
     } else {
         let warnings = measured.validity().warnings();
-        let warnings: String = warnings.iter().map(|w| format!("warning: {w}\n")).collect();
+        let warnings =
+            warnings.iter().fold(String::new(), |all, w| all + &format!("warning: {w}\n"));
         say::result(&(table::grid(name, quality, figures) + &warnings))?;
     }
     measured.notes().iter().for_each(|n| say::note(&format!("note: {n}")));

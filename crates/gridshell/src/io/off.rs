@@ -67,13 +67,12 @@ enum Rest {
 }
 
 /// The words of the file, each with its line.
-#[allow(clippy::struct_field_names, reason = "it is what the field holds")]
 #[derive(Clone)]
 struct Words<'a> {
     path: &'a Path,
     /// The line that is being read, its words, and the lines below it.
     line: Option<Line<'a>>,
-    words: std::str::SplitAsciiWhitespace<'a>,
+    rest: std::str::SplitAsciiWhitespace<'a>,
     below: scan::Lines<'a>,
     job: &'a Job,
     /// The one line that they are the words of, where they are those of one.
@@ -83,23 +82,23 @@ struct Words<'a> {
 impl<'a> Words<'a> {
     fn new(path: &'a Path, text: &'a str, job: &'a Job) -> Words<'a> {
         let below = scan::lines(path, text, job);
-        Words { path, line: None, words: "".split_ascii_whitespace(), below, only: None, job }
+        Words { path, line: None, rest: "".split_ascii_whitespace(), below, only: None, job }
     }
 
     /// The words of one line only.
     fn of(path: &'a Path, line: Line<'a>, job: &'a Job) -> Words<'a> {
-        let words = line.text.split_ascii_whitespace();
+        let rest = line.text.split_ascii_whitespace();
         let below = scan::lines(path, "", job);
-        Words { path, line: Some(line), words, below, only: Some(line), job }
+        Words { path, line: Some(line), rest, below, only: Some(line), job }
     }
 
     fn word(&mut self) -> Option<(Line<'a>, &'a str)> {
         loop {
-            if let (Some(line), Some(word)) = (self.line, self.words.next()) {
+            if let (Some(line), Some(word)) = (self.line, self.rest.next()) {
                 return Some((line, word));
             }
             let line = self.below.next()?;
-            (self.line, self.words) = (Some(line), line.text.split_ascii_whitespace());
+            (self.line, self.rest) = (Some(line), line.text.split_ascii_whitespace());
         }
     }
 
@@ -119,7 +118,7 @@ impl<'a> Words<'a> {
 
     /// How many words are left in this line.
     fn left(&self) -> usize {
-        self.words.clone().count()
+        self.rest.clone().count()
     }
 }
 
@@ -207,7 +206,7 @@ impl Head {
         for _ in 0..self.faces {
             let corners = face(&mut words, body.0.len())?;
             if rest == Rest::ToLineEnd {
-                words.words = "".split_ascii_whitespace();
+                words.rest = "".split_ascii_whitespace();
             }
             // Two corners or one draw a line or a point, which are no part of the surface.
             if corners.len() >= 3 {

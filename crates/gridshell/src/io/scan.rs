@@ -20,16 +20,15 @@ pub(super) struct Line<'a> {
 /// The lines of a text that are not blank once their comment is cut off at `#`.
 /// They end early where the job is over, which the caller is to check.
 pub(super) fn lines<'a>(path: &'a Path, text: &'a str, job: &'a Job) -> Lines<'a> {
-    Lines { path, job, lines: text.lines().enumerate() }
+    Lines { path, job, rest: text.lines().enumerate() }
 }
 
 /// What [`lines`] gives.
-#[allow(clippy::struct_field_names, reason = "it is what the field holds")]
 #[derive(Clone)]
 pub(super) struct Lines<'a> {
     path: &'a Path,
     job: &'a Job,
-    lines: Enumerate<std::str::Lines<'a>>,
+    rest: Enumerate<std::str::Lines<'a>>,
 }
 
 impl<'a> Iterator for Lines<'a> {
@@ -40,7 +39,7 @@ impl<'a> Iterator for Lines<'a> {
             if self.job.is_over("reading") {
                 return None;
             }
-            let (k, line) = self.lines.next()?;
+            let (k, line) = self.rest.next()?;
             let text = line.split('#').next().unwrap_or_default().trim();
             if !text.is_empty() {
                 return Some(Line { path: self.path, number: k + 1, text });
