@@ -73,7 +73,12 @@ fn patch(place: DVec3) -> Model {
     let knots = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
     let shape =
         NurbsSurface::new([3, 3], [knots.clone(), knots], [4, 4], points.collect(), Vec::new());
-    let face = BrepFace { shape: Shape::Nurbs(shape.unwrap()), loops: Vec::new(), reversed: false, label: String::new() };
+    let face = BrepFace {
+        shape: Shape::Nurbs(shape.unwrap()),
+        loops: Vec::new(),
+        reversed: false,
+        label: String::new(),
+    };
     let mut model = Model::Brep(Brep { faces: vec![face], unit_in_metres: 1.0, ..Brep::default() });
     model.settle().unwrap();
     model
