@@ -32,6 +32,8 @@ const OFF_LENGTH: f64 = 1e-3;
 const BOW_LENGTH: f64 = 0.02;
 /// Nodes nearer than this, over l0, are one.
 const SAME: f64 = 1e-3;
+/// What a stop in here is told as.
+const PHASE: &str = "looking for symmetries";
 /// Rounds of putting a node on the surface and on its plane.
 const ROUNDS: usize = 3;
 
@@ -51,25 +53,28 @@ pub fn group(
     model: &Model,
     recipe: &Recipe,
     length: f64,
+    job: &Job,
 ) -> Result<Option<Found>> {
     if recipe.symmetry == Symmetry::None {
         return Ok(None);
     }
     let tolerance = (OFF_SIZE * model.size()).max(OFF_LENGTH * length);
-    let exact = find(&Symmetries::new(surface, tolerance), recipe.symmetry);
+    let exact = find(&Symmetries::new(surface, tolerance, job), recipe.symmetry);
     let found = match (&exact, model) {
         (Ok(Some(_)), _) if recipe.symmetry != Symmetry::Auto => exact,
         (_, Model::Mesh(mesh)) => {
             let corner_angle = recipe.corner_angle_deg.to_radians();
             let (max_edge, chord_error) = (f64::INFINITY, f64::INFINITY);
-            let facets = mesh.surface(&Sampling { max_edge, chord_error, corner_angle })?;
+            let facets = mesh.surface(&Sampling { max_edge, chord_error, corner_angle }, job)?;
             let crease_angle = recipe.feature_angle_deg.to_radians();
             let most = BOW_LENGTH * length;
-            let near = Symmetries::of_facets(&facets, tolerance, crease_angle, corner_angle, most);
+            let near = Symmetries::of_facets(&facets, tolerance, [crease_angle, corner_angle], most, job);
             larger(exact, find(&near, recipe.symmetry))
         }
         _ => exact,
     };
+    // What was not looked at to the end is neither a symmetry nor none.
+    job.check(PHASE)?;
     found.map_err(|Miss { distance, point: p, image }| {
         let at = |p: DVec3| surface.origin.told(p);
         Error::Option(format!(
@@ -126,21 +131,27 @@ pub fn generate(
     job: &Job,
 ) -> Result<Run> {
     let (length, corner_angle) = (scale.length, recipe.corner_angle_deg.to_radians());
-    let wedge = wedge(surface, group, length);
+    let wedge = wedge(surface, group, length, job)?;
     let make = |l: f64| -> Result<Part> {
-        model.surface(&sampling(l, scale.nodes, recipe))?.part(
+        model.surface(&sampling(l, scale.nodes, recipe), job)?.part(
             &wedge,
             group.order(),
             length,
             corner_angle,
+            job,
         )
     };
     let on = std::cell::RefCell::new(Vec::new());
-    let (part, _) = wishes::surface(recipe, length, |l| {
-        let part = make(l)?;
-        on.replace(part.on);
-        Ok(part.surface)
-    })?;
+    let (part, _) = wishes::surface(
+        recipe,
+        length,
+        |l| {
+            let part = make(l)?;
+            on.replace(part.on);
+            Ok(part.surface)
+        },
+        job,
+    )?;
     let part = Part { surface: part, on: on.into_inner() };
     let nodes = nodes_for(&part.surface, length);
     // The verdict is on the whole.
@@ -220,12 +231,13 @@ pub fn generate(
 }
 
 /// The wedge of which all others are images.
-fn wedge(surface: &Surface, group: &Group, length: f64) -> Wedge {
-    let first = Symmetries::new(surface, OFF_LENGTH * length).cut(group);
+fn wedge(surface: &Surface, group: &Group, length: f64, job: &Job) -> Result<Wedge> {
+    let first = Symmetries::new(surface, OFF_LENGTH * length, job).cut(group);
+    job.check(PHASE)?;
     let sectors = if group.mirror.is_some() { 2 * group.turns } else { group.turns };
     let turn = group.mirror.is_none().then(|| Motion::turn(group.centre, 1, group.turns));
     let second = Motion::turn(DVec2::ZERO, 1, sectors).image(first.extend(0.0)).truncate();
-    Wedge { centre: group.centre, rays: [first, second], turn }
+    Ok(Wedge { centre: group.centre, rays: [first, second], turn })
 }
 
 /// Joins grids of the part to grids of the whole surface.

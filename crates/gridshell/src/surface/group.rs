@@ -8,6 +8,7 @@
 use super::bow::Bows;
 use super::motion::unit;
 use super::{Locator, Motion, Surface};
+use crate::job::Job;
 use crate::math::trig;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -22,6 +23,9 @@ const FIT_STEPS: usize = 8;
 const FIT_POINTS: usize = 300;
 /// Points of the surface that are looked at before a symmetry is believed.
 const CHECK_POINTS: usize = 20_000;
+
+/// What polls are counted under.
+const PHASE: &str = "looking for symmetries";
 
 /// Turns and mirrorings under which a surface, or a grid, stays the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,11 +90,13 @@ pub struct Symmetries<'a> {
     centroid: DVec2,
     /// Direction in plan in which the surface is longest.
     longest: DVec2,
+    /// Once it is over, answers are of no use: the caller is to check.
+    job: &'a Job,
 }
 
 impl<'a> Symmetries<'a> {
     /// For images that may be off the surface by `tolerance` metres.
-    pub fn new(surface: &'a Surface, tolerance: f64) -> Symmetries<'a> {
+    pub fn new(surface: &'a Surface, tolerance: f64, job: &'a Job) -> Symmetries<'a> {
         let carrier = &surface.carrier;
         let faces = (0..carrier.triangles.len() as u32).map(|t| {
             let middle = carrier.corners(t).iter().sum::<DVec3>() / 3.0;
@@ -109,7 +115,7 @@ impl<'a> Symmetries<'a> {
         let angle = 0.5 * trig::atan2(2.0 * xy, xx - yy);
         let longest = DVec2::new(trig::cos(angle), trig::sin(angle));
         let (locator, bows) = (Locator::new(surface), Bows::default());
-        Symmetries { surface, locator, tolerance, bows, centroid, longest }
+        Symmetries { surface, locator, tolerance, bows, centroid, longest, job }
     }
 
     /// For a mesh as it is in its file: images may also be off by what the smooth surface is from its facets, where
@@ -117,12 +123,12 @@ impl<'a> Symmetries<'a> {
     pub fn of_facets(
         facets: &'a Surface,
         tolerance: f64,
-        crease_angle: f64,
-        corner_angle: f64,
+        [crease_angle, corner_angle]: [f64; 2],
         most: f64,
+        job: &'a Job,
     ) -> Symmetries<'a> {
         let bows = Bows::of(facets, crease_angle, corner_angle, most);
-        Symmetries { bows, ..Symmetries::new(facets, tolerance) }
+        Symmetries { bows, ..Symmetries::new(facets, tolerance, job) }
     }
 
     /// How far the smooth surface may be off facets, metres; 0 where images are to lie on the surface itself.
@@ -248,6 +254,7 @@ impl<'a> Symmetries<'a> {
         samples.extend(self.on_loops(count));
         let misses: Vec<(f64, Miss)> = samples
             .par_iter()
+            .take_any_while(|_| !self.job.is_over(PHASE))
             .map(|sample| {
                 let image = motion.image(sample.point);
                 let (foot, _, bow) = self.foot(sample, image);
@@ -315,6 +322,9 @@ impl<'a> Symmetries<'a> {
             .collect();
         let (mut a, mut b) = ([[0.0; 2]; 2], [0.0; 2]);
         for sample in samples {
+            if self.job.is_over(PHASE) {
+                break;
+            }
             let image = motion.image(sample.point);
             let (foot, axis, _) = self.foot(sample, image);
             let along = |v: DVec3| axis * v.dot(axis);

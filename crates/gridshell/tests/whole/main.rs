@@ -8,6 +8,7 @@ mod far;
 mod fixed;
 mod formats;
 mod hexagon;
+mod moments;
 mod narrow;
 mod paper;
 mod parts;
