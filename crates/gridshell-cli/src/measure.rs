@@ -62,8 +62,8 @@ pub fn run(args: &Measure, work: &Work) -> Result<Outcome, Failure> {
         })?;
     } else {
         let warnings = measured.validity().warnings();
-        let warnings: Vec<String> = warnings.iter().map(|w| format!("warning: {w}\n")).collect();
-        let warnings = warnings.concat();
+        let warnings =
+            warnings.iter().fold(String::new(), |all, w| all + &format!("warning: {w}\n"));
         say::result(&(table::grid(name, quality, figures) + &warnings))?;
     }
     reported.map(|()| Outcome::Done)

@@ -190,7 +190,7 @@ fn a_unit_that_was_asked_for_goes_before_the_files() {
     }
     for file in files {
         let load = |unit| {
-            gridshell::io::load(&folder.join(file), &Opening { unit, ..Opening::default() })
+            gridshell::io::load(&folder.join(file), &Opening { unit, ..Opening::default() }, &Job::default())
                 .unwrap()
         };
         let area = |model: &Model| sampled(model, EDGE * model.size()).unwrap().area;
@@ -217,7 +217,7 @@ fn an_odd_size_is_told_of_patches_and_meshes() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files");
     let odd = |path: &Path, unit| {
         let opening = Opening { unit: Some(unit), ..Opening::default() };
-        let model = gridshell::io::load(path, &opening).unwrap();
+        let model = gridshell::io::load(path, &opening, &Job::default()).unwrap();
         model.notes().iter().any(|n| n.contains("m across") && n.contains("--units"))
     };
     let step = folder.join("roof_m_ap203.step");

@@ -145,12 +145,13 @@ fn top_of_edge(at: impl Fn(f64) -> f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use crate::job::Job;
     use crate::surface::{Sampling, builtin};
     use glam::DVec3;
 
     fn extent(name: &str, max_edge: f64) -> [DVec3; 2] {
         let sampling = Sampling { max_edge, chord_error: 0.02 * max_edge, corner_angle: 0.5 };
-        builtin::model(name).unwrap().surface(&sampling).unwrap().extent()
+        builtin::model(name).unwrap().surface(&sampling, &Job::default()).unwrap().extent()
     }
 
     /// Tops inside patches, at poles and seams, and on curved edges; however coarse the carrier is.

@@ -123,8 +123,7 @@ impl<'a> Symmetries<'a> {
     pub fn of_facets(
         facets: &'a Surface,
         tolerance: f64,
-        crease_angle: f64,
-        corner_angle: f64,
+        [crease_angle, corner_angle]: [f64; 2],
         most: f64,
         job: &'a Job,
     ) -> Symmetries<'a> {

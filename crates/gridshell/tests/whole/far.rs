@@ -38,7 +38,7 @@ fn mesh(name: &str, place: DVec3, to_metre: f64) -> Model {
     let path = scratch(name);
     std::fs::write(&path, text(place, to_metre)).unwrap();
     let unit = (to_metre != 1.0).then_some(LengthUnit::Millimetre);
-    let model = io::load(&path, &Opening { unit, ..Opening::default() }).unwrap();
+    let model = io::load(&path, &Opening { unit, ..Opening::default() }, &Job::default()).unwrap();
     std::fs::remove_file(&path).unwrap();
     model
 }
@@ -73,7 +73,12 @@ fn patch(place: DVec3) -> Model {
     let knots = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
     let shape =
         NurbsSurface::new([3, 3], [knots.clone(), knots], [4, 4], points.collect(), Vec::new());
-    let face = BrepFace { shape: Shape::Nurbs(shape.unwrap()), loops: Vec::new(), reversed: false };
+    let face = BrepFace {
+        shape: Shape::Nurbs(shape.unwrap()),
+        loops: Vec::new(),
+        reversed: false,
+        label: String::new(),
+    };
     let mut model = Model::Brep(Brep { faces: vec![face], unit_in_metres: 1.0, ..Brep::default() });
     model.settle().unwrap();
     model
@@ -117,7 +122,7 @@ fn a_mesh_far_from_the_origin_gives_the_grid_that_it_gives_near() {
         let far = lay(&model, &recipe);
         assert_same(&near, &far, place);
         let carrier =
-            |run: &Run, model: &Model| pipeline::surface(model, &run.recipe).unwrap().0.carrier;
+            |run: &Run, model: &Model| pipeline::surface(model, &run.recipe, &Job::default()).unwrap().0.carrier;
         let near = carrier(&near, &mesh("again.obj", DVec3::ZERO, 1.0));
         assert_eq!(near.triangles, carrier(&far, &model).triangles, "the same work");
     }
@@ -208,19 +213,19 @@ fn every_format_has_the_files_coordinates_and_ours_open_again() {
         let model = mesh("format.obj", place, 1.0);
         std::fs::write(&path, text(place, 1.0)).unwrap();
         let run = lay(&model, &wishes(place));
-        let (surface, _) = pipeline::surface(&model, &run.recipe).unwrap();
+        let (surface, _) = pipeline::surface(&model, &run.recipe, &Job::default()).unwrap();
         let nodes = world(&run);
         let held = Supports::Points(vec![nodes[0], nodes[1]]).nodes(&run.grid, &surface).unwrap();
         assert_eq!(held, [0, 1]);
-        let reference = io::reference(&path.to_string_lossy(), &Opening::default()).unwrap();
+        let reference = io::reference(&path.to_string_lossy(), &Opening::default(), &Job::default()).unwrap();
         let document = Document::of_run(&run, reference, held);
         assert_eq!(document.anchors.len(), 2);
         let structure = Structure::default();
         let file = GridFile { document: &document, schedule: &run.schedule, structure: &structure };
         for end in ["obj", "ply", "stl", "off", "glb", "json", "gridshell"] {
             let path = scratch(&format!("grid{k}.{end}"));
-            io::write(&path, &file).unwrap();
-            let opened = reopen::open(&path, None, &Opening::default()).unwrap();
+            io::write(&path, &file, &Job::default()).unwrap();
+            let opened = reopen::open(&path, None, &Opening::default(), &Job::default()).unwrap();
             // STL holds no order of nodes.
             let loose = if end == "stl" { 1e-6 } else { 0.0 };
             let single = if end == "glb" { 1e-5 } else { loose };
@@ -234,13 +239,13 @@ fn every_format_has_the_files_coordinates_and_ours_open_again() {
                 assert_eq!(opened.grid.xyz, run.grid.xyz, "on its surface again, bit for bit");
                 assert!(opened.summary.is_some() && opened.notes.is_empty(), "{:?}", opened.notes);
             }
-            let on = reopen::open(&path, Some(&path_of(k)), &Opening::default()).unwrap();
+            let on = reopen::open(&path, Some(&path_of(k)), &Opening::default(), &Job::default()).unwrap();
             let schedule = Schedule::new(&on.grid, &on.surface, &Tolerances::default());
             assert!(schedule.nodes.off_surface.iter().all(|&d| d < 1e-4), "{end}");
             std::fs::remove_file(&path).unwrap();
         }
         for end in ["dxf", "csv", "compas.json", "vtu", "saf.xlsx", "ifc", "tcl"] {
-            let written = io::write(&scratch(&format!("handed{k}.{end}")), &file).unwrap();
+            let written = io::write(&scratch(&format!("handed{k}.{end}")), &file, &Job::default()).unwrap();
             let text = std::fs::read(&written[0]).unwrap();
             let text = String::from_utf8_lossy(&text);
             let first = nodes[0].y.to_string();
@@ -265,7 +270,7 @@ fn edits_name_places_in_the_files_coordinates() {
     let edited = |place: DVec3| {
         let model = patch(place);
         let run = lay(&model, &quick(2.2));
-        let (surface, _) = pipeline::surface(&model, &run.recipe).unwrap();
+        let (surface, _) = pipeline::surface(&model, &run.recipe, &Job::default()).unwrap();
         let mut editor =
             Editor::new(Arc::new(surface), run.grid.clone(), run.recipe.clone(), run.edge_length);
         let inside = |v: &u32| !run.grid.mesh.is_boundary(*v);

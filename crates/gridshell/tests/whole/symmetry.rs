@@ -234,7 +234,7 @@ fn uneven(corners: &[[f64; 2]], seed: u64) -> Model {
 fn star(points: u32) -> Vec<[f64; 2]> {
     let corner = |k: u32| {
         let (angle, r) =
-            (PI * f64::from(k) / f64::from(points), if k % 2 == 0 { 10.0 } else { 6.0 });
+            (PI * f64::from(k) / f64::from(points), if k.is_multiple_of(2) { 10.0 } else { 6.0 });
         [-r * angle.sin(), r * angle.cos()]
     };
     (0..2 * points).map(corner).collect()
