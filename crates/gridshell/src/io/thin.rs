@@ -34,7 +34,9 @@ pub(super) fn drop_thin(work: &mut Work, tolerance: f64) {
     let mut faces_of = vec![0_u32; work.points.len()];
     for (face, f) in work.faces.iter().zip(0..) {
         enter(&mut edges, face, f);
-        face.iter().for_each(|&v| faces_of[v as usize] += 1);
+        for &v in face {
+            faces_of[v as usize] += 1;
+        }
     }
     for f in 0..work.faces.len() {
         if !thin[f] {
@@ -42,7 +44,9 @@ pub(super) fn drop_thin(work: &mut Work, tolerance: f64) {
         }
         let face = std::mem::take(&mut work.faces[f]);
         leave(&mut edges, &face, f as u32);
-        face.iter().for_each(|&v| faces_of[v as usize] -= 1);
+        for &v in &face {
+            faces_of[v as usize] -= 1;
+        }
         let kept: Vec<u32> = face.iter().copied().filter(|&v| faces_of[v as usize] > 0).collect();
         for k in 0..face.len() {
             let (a, b) = (face[k], face[(k + 1) % face.len()]);
@@ -55,7 +59,9 @@ pub(super) fn drop_thin(work: &mut Work, tolerance: f64) {
                 let Some(new) = with_corners(&old, [a, b], &between) else { continue };
                 leave(&mut edges, &old, g);
                 enter(&mut edges, &new, g);
-                between.iter().for_each(|&v| faces_of[v as usize] += 1);
+                for &v in &between {
+                    faces_of[v as usize] += 1;
+                }
                 thin[g as usize] |= g as usize > f && is_thin(&work.points, &new, tolerance);
                 work.faces[g as usize] = new;
             }

@@ -207,6 +207,7 @@ impl Bench<'_> {
     }
 
     /// Carry out a step; gives where a node was, if one moved. `None` where the step is refused.
+    #[expect(clippy::option_option, reason = "whether it was done, and whether a node moved")]
     fn take(&mut self, step: Step, undo: &mut Undo) -> Option<Option<(u32, Place, DVec3)>> {
         match step {
             Step::Flip(a, b) => self.grid.mesh.try_flip(a, b, undo).ok().map(|_| None),

@@ -46,7 +46,7 @@ struct Placed {
 #[derive(Clone)]
 pub(super) struct Place {
     member: String,
-    place: DAffine3,
+    at: DAffine3,
     pub shown: bool,
 }
 
@@ -129,7 +129,7 @@ impl Blocks {
             if kinds.get(member.as_str()) == Some(&Kind::Block) {
                 self.follow(member, (place, shown), level + 1, kinds, places);
             } else {
-                places.push(Place { member: member.clone(), place, shown });
+                places.push(Place { member: member.clone(), at: place, shown });
             }
         }
     }
@@ -194,13 +194,13 @@ impl Reading<'_> {
                     continue;
                 }
                 let number = self.listed.len();
-                let copied = copy(&mut self.brep, &old, &faces, Some(&place.place), number);
+                let copied = copy(&mut self.brep, &old, &faces, Some(&place.at), number);
                 if let Err(why) = copied {
                     let (what, faces) = (object.told(), std::mem::take(&mut object.faces));
                     self.losses.push(Loss { what, why, faces, area: None, whole: true });
                 }
                 self.listed.push(object.clone());
-                self.meshed.extend(meshes().map(|mesh| mesh.placed(number, Some(&place.place))));
+                self.meshed.extend(meshes().map(|mesh| mesh.placed(number, Some(&place.at))));
             }
         }
     }

@@ -5,6 +5,7 @@ use super::Reading;
 use super::convert;
 use crate::io::soup::Soup;
 use crate::io::{Choice, LengthUnit, Opening, weld};
+use crate::job::Job;
 use crate::surface::brep::{BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::{NurbsCurve, NurbsSurface};
 use crate::surface::{Curve, Loss, PolygonMesh, Shape, ear};
@@ -78,7 +79,9 @@ impl Reading<'_> {
                 "SubD" => {}
                 "mesh" => {
                     let mut mesh = Meshed::new(object, None);
-                    shown_by.iter().for_each(|m| mesh.add(m));
+                    for m in shown_by {
+                        mesh.add(m);
+                    }
                     self.meshed.push(mesh);
                 }
                 _ => self.instead(object, shown_by),
@@ -137,7 +140,7 @@ impl Reading<'_> {
 
     /// Meshes beside exact surfaces: triangles in the place of exact faces, and what was asked for by name, become
     /// plane faces; meshes beside them are told.
-    pub(super) fn beside(&mut self, path: &Path, choice: &Choice) {
+    pub(super) fn beside(&mut self, path: &Path, choice: &Choice, job: &Job) {
         for mesh in std::mem::take(&mut self.meshed) {
             let why = if mesh.instead.is_none() && choice.is_all() {
                 "it is a mesh beside exact surfaces; choose it by layer or name to read it"
@@ -147,7 +150,7 @@ impl Reading<'_> {
                     "it has more than {MOST_FACETS} triangles; choose it alone, by layer or name, to read it"
                 )
             } else {
-                match weld::weld(path, mesh.soup(), &Opening::default()) {
+                match weld::weld(path, mesh.soup(), &Opening::default(), job) {
                     Ok(welded) => {
                         self.tell_instead(&mesh);
                         self.facets(mesh.object, &welded);

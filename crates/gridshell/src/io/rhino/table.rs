@@ -147,7 +147,7 @@ fn plane(mut object: Chunks) -> Option<[DVec3; 4]> {
     };
     let vector = |k: usize| Some(DVec3::new(number(k)?, number(k + 1)?, number(k + 2)?));
     let (origin, x, y) = (vector(0)?, vector(3)?, vector(6)?);
-    let from = if version & 0x0f == 0 { 16 } else { 20 };
+    let from = if version.trailing_zeros() >= 4 { 16 } else { 20 };
     let [left, right, low, high] =
         [number(from)?, number(from + 1)?, number(from + 2)?, number(from + 3)?];
     let corner = |u: f64, v: f64| origin + x * u + y * v;
@@ -171,7 +171,7 @@ fn attributes(body: &[u8], row: &mut Row) -> Option<()> {
     }
     let wide = name.get(4..4 + 2 * count)?.chunks_exact(2);
     let units: Vec<u16> = wide.map(|pair| u16::from_le_bytes([pair[0], pair[1]])).collect();
-    row.name = String::from_utf16_lossy(&units).trim_end_matches('\0').to_owned();
+    String::from_utf16_lossy(&units).trim_end_matches('\0').clone_into(&mut row.name);
     Some(())
 }
 

@@ -18,7 +18,9 @@ use super::model::Sampling;
 use super::nurbs::NurbsSurface;
 use super::shape::Shape;
 use super::trim::{Edges, Polyline, Tracer};
-use super::{Curve, poles, sample, seam, size};
+use super::{Curve, PREPARING, poles, sample, seam, size};
+use crate::error::Result;
+use crate::job::Job;
 use cut::{Cell, Cutter};
 use draft::Draft;
 use glam::DVec3;
@@ -37,31 +39,35 @@ const FOUND: f64 = 1e-3;
 const MOST_PARTS: usize = 50_000;
 
 /// Part all faces that fold. A face that cannot be parted stays as it is.
-pub fn split_folds(brep: &mut Brep) {
+///
+/// # Errors
+/// [`Error::Stopped`](crate::Error::Stopped) where the job was stopped.
+pub fn split_folds(brep: &mut Brep, job: &Job) -> Result<()> {
     let of_face = |i: usize| Some((i, Lines::of(&brep.faces[i].shape)?));
     let folded: Vec<(usize, Lines)> =
         (0..brep.faces.len()).into_par_iter().filter_map(of_face).collect();
     let snap = SNAP * size::of_brep(brep);
     if folded.is_empty() || !(snap.is_finite() && snap > 0.0) {
-        return;
+        return Ok(());
     }
     let mut parted = brep.clone();
     poles::part(&mut parted);
-    let ready = bounded(&mut parted, &folded);
+    let ready = bounded(&mut parted, &folded, job);
     let (points, polylines) = sampled(&parted, &folded);
     let curves: Vec<Curve> = parted.edges.iter().map(|e| e.curve.clone()).collect();
     let edges = Edges { curves: &curves, polylines: &polylines, points: &points };
     let mut draft = Draft::new(&parted, snap);
     let mut parts = Vec::new();
     for (i, lines) in folded.iter().filter(|(i, _)| ready.contains(i)) {
+        job.check(PREPARING)?;
         let mark = draft.mark();
-        match part(&parted, *i, lines, &edges, &mut draft) {
+        match part(&parted, *i, lines, &edges, &mut draft, job) {
             Some(cells) if cells.len() > 1 => parts.push((*i, cells)),
             _ => draft.back_to(&mark),
         }
     }
     if parts.is_empty() {
-        return;
+        return Ok(());
     }
     let (before, after) = (parts.len(), parts.iter().map(|p| p.1.len()).sum::<usize>());
     let faces = draft.finish(&mut parted, parts);
@@ -70,10 +76,11 @@ pub fn split_folds(brep: &mut Brep) {
         "{before} face(s) that fold along lines inside them are taken as {after}, which meet in creases"
     ));
     *brep = parted;
+    Ok(())
 }
 
 /// The folded faces that have, or could be given, loops that close in (u, v).
-fn bounded(brep: &mut Brep, folded: &[(usize, Lines)]) -> Vec<usize> {
+fn bounded(brep: &mut Brep, folded: &[(usize, Lines)], job: &Job) -> Vec<usize> {
     let mut ready = Vec::new();
     for &(i, _) in folded {
         if !brep.faces[i].loops.is_empty() || seam::bound(brep, i).is_ok() {
@@ -90,7 +97,7 @@ fn bounded(brep: &mut Brep, folded: &[(usize, Lines)]) -> Vec<usize> {
     let edges = Edges { curves: &curves, polylines: &polylines, points: &points };
     for i in round {
         let before = brep.faces[i].clone();
-        if seam::close(brep, i, &edges, &sampling_of(&before.shape)).is_err() {
+        if seam::close(brep, i, &edges, &sampling_of(&before.shape), job).is_err() {
             brep.faces[i] = before;
             ready.retain(|&r| r != i);
         }
@@ -105,13 +112,14 @@ fn part(
     lines: &Lines,
     edges: &Edges,
     draft: &mut Draft,
+    job: &Job,
 ) -> Option<Vec<Cell>> {
     let face = &brep.faces[i];
     let Shape::Nurbs(patch) = &face.shape else { return None };
     let mut sampling = sampling_of(&face.shape);
     // On its way over a fold a search for a foot may end in it: what is no nearer than this is looked for afresh.
     sampling.chord_error *= FOUND;
-    let tracer = Tracer::new(&face.shape, edges, &sampling);
+    let tracer = Tracer::new(&face.shape, edges, &sampling, job);
     let rings = ring::of_face(&tracer, face).ok()?;
     let snap = draft.snap;
     let mut cutter = Cutter { patch, shape: &face.shape, edges, draft };
