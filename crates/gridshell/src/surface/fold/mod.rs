@@ -17,10 +17,10 @@ use super::brep::Brep;
 use super::model::Sampling;
 use super::nurbs::NurbsSurface;
 use super::shape::Shape;
+use super::trim::{Edges, Polyline, Tracer};
+use super::{Curve, PREPARING, poles, sample, seam, size};
 use crate::error::Result;
 use crate::job::Job;
-use super::trim::{Edges, Polyline, Tracer};
-use super::{Curve, poles, sample, seam, size};
 use cut::{Cell, Cutter};
 use draft::Draft;
 use glam::DVec3;
@@ -37,13 +37,11 @@ const BULGE: f64 = 1e-3;
 const FOUND: f64 = 1e-3;
 /// Parts of one face at most; one with more stays whole.
 const MOST_PARTS: usize = 50_000;
-/// What a stop in here is told as.
-const PHASE: &str = "reading";
 
 /// Part all faces that fold. A face that cannot be parted stays as it is.
 ///
 /// # Errors
-/// Where `job` has been stopped.
+/// [`Error::Stopped`](crate::Error::Stopped) where the job was stopped.
 pub fn split_folds(brep: &mut Brep, job: &Job) -> Result<()> {
     let of_face = |i: usize| Some((i, Lines::of(&brep.faces[i].shape)?));
     let folded: Vec<(usize, Lines)> =
@@ -57,12 +55,11 @@ pub fn split_folds(brep: &mut Brep, job: &Job) -> Result<()> {
     let ready = bounded(&mut parted, &folded, job);
     let (points, polylines) = sampled(&parted, &folded);
     let curves: Vec<Curve> = parted.edges.iter().map(|e| e.curve.clone()).collect();
-    let edges =
-        Edges { curves: &curves, polylines: &polylines, points: &points, origin: brep.origin };
+    let edges = Edges { curves: &curves, polylines: &polylines, points: &points, origin: brep.origin };
     let mut draft = Draft::new(&parted, snap);
     let mut parts = Vec::new();
     for (i, lines) in folded.iter().filter(|(i, _)| ready.contains(i)) {
-        job.check(PHASE)?;
+        job.check(PREPARING)?;
         let mark = draft.mark();
         match part(&parted, *i, lines, &edges, &mut draft, job) {
             Some(cells) if cells.len() > 1 => parts.push((*i, cells)),
@@ -97,8 +94,7 @@ fn bounded(brep: &mut Brep, folded: &[(usize, Lines)], job: &Job) -> Vec<usize> 
     }
     let (points, polylines) = sampled(brep, folded);
     let curves: Vec<Curve> = brep.edges.iter().map(|e| e.curve.clone()).collect();
-    let edges =
-        Edges { curves: &curves, polylines: &polylines, points: &points, origin: brep.origin };
+    let edges = Edges { curves: &curves, polylines: &polylines, points: &points, origin: brep.origin };
     for i in round {
         let before = brep.faces[i].clone();
         if seam::close(brep, i, &edges, &sampling_of(&before.shape), job).is_err() {

@@ -65,9 +65,9 @@ fn trimmed(patch: NurbsSurface, polygons: &[&[(f64, f64)]]) -> Brep {
 
 /// Parted, tessellated, and its creases found.
 fn laid(mut brep: Brep) -> (Brep, Surface) {
-    split_folds(&mut brep, &crate::job::Job::default()).unwrap();
-    let mut surface = tessellate(&brep, &SAMPLING).unwrap();
-    surface.fix(&creases()).unwrap();
+    split_folds(&mut brep, &Job::default()).unwrap();
+    let mut surface = tessellate(&brep, &SAMPLING, &Job::default()).unwrap();
+    surface.fix(&creases(), &Job::default()).unwrap();
     (brep, surface)
 }
 
@@ -130,7 +130,7 @@ fn smooth_knots_and_planes_of_degree_one_stay_whole() {
         NurbsSurface::new([2, 1], [knots(2, 2), knots(1, 1)], [5, 2], points.collect(), vec![]);
     for patch in [straight, arch.unwrap(), net(9, 7, |i, j| 0.1 * (i + 2 * j) as f64)] {
         let mut brep = whole(patch);
-        split_folds(&mut brep, &crate::job::Job::default()).unwrap();
+        split_folds(&mut brep, &Job::default()).unwrap();
         assert_eq!((brep.faces.len(), brep.notes.len()), (1, 0));
     }
 }
@@ -240,16 +240,16 @@ fn hundreds_of_folds_cost_no_more_than_their_number() {
     // Facets of an arch stay one face; a corrugated sheet is parted into its strips.
     let arch = |k: i32| (0.05 * f64::from(k), 2.0 - 0.0008 * f64::from((k - 50) * (k - 50)));
     let mut facets = whole(extruded(&(0..=100).map(arch).collect::<Vec<_>>(), 4.0));
-    split_folds(&mut facets, &crate::job::Job::default()).unwrap();
+    split_folds(&mut facets, &Job::default()).unwrap();
     assert_eq!(facets.faces.len(), 1);
     let wave = |k: i32| (0.5 * f64::from(k), 0.3 * f64::from(k % 2));
     let mut sheet = whole(extruded(&(0..=400).map(wave).collect::<Vec<_>>(), 4.0));
-    split_folds(&mut sheet, &crate::job::Job::default()).unwrap();
+    split_folds(&mut sheet, &Job::default()).unwrap();
     assert_eq!((sheet.faces.len(), sheet.edges.len()), (400, 1201));
     // Each strip has no more of the patch than it needs.
     assert!(sheet.faces.iter().all(|f| f.shape.spline().unwrap().points.len() == 4));
     let mut egg = whole(net(40, 40, |i, j| 0.5 * ((i * 7 + j * 13) % 3) as f64));
-    split_folds(&mut egg, &crate::job::Job::default()).unwrap();
+    split_folds(&mut egg, &Job::default()).unwrap();
     assert_eq!((egg.faces.len(), egg.vertices.len()), (1600, 41 * 41));
 }
 
@@ -275,7 +275,7 @@ fn faces_beside_a_folded_one_share_its_pieces() {
         reversed: false,
         label: String::new(),
     });
-    crate::surface::sew(&mut brep, None).unwrap();
+    crate::surface::sew(&mut brep, None, &Job::default()).unwrap();
     let (brep, surface) = laid(brep);
     assert_eq!((brep.faces.len(), surface.loops.len()), (3, 1));
     assert_eq!(brep.faces[1].loops[0].len(), 3);
