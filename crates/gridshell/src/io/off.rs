@@ -203,7 +203,7 @@ impl Head {
         for _ in 0..self.faces {
             let corners = face(&mut words, body.0.len())?;
             if rest == Rest::ToLineEnd {
-                words.words = "".split_ascii_whitespace();
+                words.rest = "".split_ascii_whitespace();
             }
             // Two corners or one draw a line or a point, which are no part of the surface.
             if corners.len() >= 3 {

@@ -38,7 +38,7 @@ struct Definition {
 
 struct Placed {
     definition: String,
-    at: DAffine3,
+    place: DAffine3,
     shown: bool,
 }
 
@@ -46,7 +46,7 @@ struct Placed {
 #[derive(Clone)]
 pub(super) struct Place {
     member: String,
-    place: DAffine3,
+    at: DAffine3,
     pub shown: bool,
 }
 
