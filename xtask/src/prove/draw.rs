@@ -231,7 +231,7 @@ impl Mesh {
             sides.extend([(a.min(b), a.max(b)), (b.min(c), b.max(c)), (a.min(c), a.max(c))]);
             area += super::patch::triangle(f.map(|v| self.points[v]));
         }
-        let euler = used as i64 - sides.len() as i64 + self.faces.len() as i64;
+        let euler = i64::from(used) - sides.len() as i64 + self.faces.len() as i64;
         Drawn { what, extension: "obj", text, area, euler }
     }
 }

@@ -121,7 +121,7 @@ fn verdict(ran: &Watched, grid: &Path, drawn: Option<&Drawn>) -> Result<bool, St
         Some(0) => {
             let text = fs::read_to_string(grid).map_err(|e| format!("no grid: {e}"))?;
             let area = check::valid(&text, drawn.map(|d| d.euler))?;
-            let share = drawn.map(|d| area / d.area).unwrap_or(1.0);
+            let share = drawn.map_or(1.0, |d| area / d.area);
             if !(AREA[0]..=AREA[1]).contains(&share) {
                 return Err(format!("area {share:.3} of the surface's"));
             }
