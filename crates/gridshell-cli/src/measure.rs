@@ -56,8 +56,8 @@ pub fn run(args: &Measure) -> Result<Outcome, Failure> {
         })?;
     } else {
         let warnings = measured.validity().warnings();
-        let warnings: String = warnings.iter().map(|w| format!("warning: {w}\n")).collect();
-        say::result(&(table::grid(name, quality, figures) + &warnings))?;
+        let warnings: Vec<String> = warnings.iter().map(|w| format!("warning: {w}\n")).collect();
+        say::result(&(table::grid(name, quality, figures) + &warnings.concat()))?;
     }
     measured.notes().iter().for_each(|n| say::note(&format!("note: {n}")));
     Ok(Outcome::Done)
