@@ -2,6 +2,7 @@
 //! would. A reader answers with a surface or an error; a panic, more than ten seconds or more than a gigabyte is
 //! a find.
 
+use gridshell::job::Job;
 use gridshell::surface::{Model, Sampling};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +17,7 @@ const CORNER: f64 = 0.6;
 /// Open these bytes as the surface in a file with this extension, and sample it.
 pub fn surface(extension: &str, bytes: &[u8]) {
     with_file(extension, bytes, |path| {
-        let Ok(model) = gridshell::io::open(&path.to_string_lossy()) else { return };
+        let Ok(model) = gridshell::io::open(&path.to_string_lossy(), &Job::default()) else { return };
         let size = model.size();
         assert!(size.is_finite(), "a model without a finite size");
         if let Model::Mesh(mesh) = &model {
@@ -29,7 +30,7 @@ pub fn surface(extension: &str, bytes: &[u8]) {
         }
         let max_edge = size * FINENESS;
         let sampling = Sampling { max_edge, chord_error: size * CHORD_ERROR, corner_angle: CORNER };
-        if let Ok(surface) = model.surface(&sampling) {
+        if let Ok(surface) = model.surface(&sampling, &Job::default()) {
             assert!(surface.area.is_finite(), "an area that is no number");
         }
     });

@@ -5,6 +5,7 @@ use crate::picture::label::Labels;
 use crate::picture::sheet::{Paper, Sheet};
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use gridshell::io::{Choice, LengthUnit, Opening};
+use gridshell::job;
 use std::path::PathBuf;
 
 /// Triangular grids for free-form gridshells.
@@ -19,6 +20,19 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(subcommand)]
     pub command: Command,
+    #[command(flatten)]
+    pub limits: Limits,
+}
+
+/// What a command may take.
+#[derive(ClapArgs)]
+pub struct Limits {
+    /// Stop after so long: with the best grid so far where there is one.
+    #[arg(long, global = true, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
+    pub time_limit: Option<f64>,
+    /// Stop before more memory is taken than this, such as 500M or 2G; without it, three quarters of the machine's.
+    #[arg(long, global = true, value_name = "SIZE", value_parser = memory)]
+    pub memory_limit: Option<u64>,
 }
 
 #[derive(Subcommand)]
@@ -156,9 +170,6 @@ pub struct Generate {
     /// Number of threads; the grid does not depend on it.
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Stop after so long and write the best grid so far.
-    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
-    pub time_limit: Option<f64>,
 }
 
 /// What hand-over files state beside the grid.
@@ -338,6 +349,10 @@ pub struct Studio {
     /// A folder with a built page instead of the one in this program, for working on the page.
     #[arg(long, value_name = "FOLDER", hide = true)]
     pub page: Option<PathBuf>,
+}
+
+fn memory(text: &str) -> Result<u64, String> {
+    job::memory::parse(text).map_err(|e| e.to_string())
 }
 
 /// A positive number that is no infinity; a billion of anything is enough.

@@ -6,6 +6,7 @@ use crate::facts::{Fact, Rank, facts};
 use crate::failure::Failure;
 use crate::picture::colour::{Coloring, Colours};
 use crate::picture::svg::escaped;
+use crate::progress::Work;
 use crate::report::{self, Colored};
 use crate::subject::{Measured, Subject};
 use crate::{recipe, say};
@@ -40,15 +41,17 @@ impl<'a> Entry<'a> {
     }
 }
 
-pub fn run(args: &Compare) -> Result<Outcome, Failure> {
+pub fn run(args: &Compare, work: &Work) -> Result<Outcome, Failure> {
+    let job = &work.job;
     args.html.as_deref().map_or(Ok(()), report::check)?;
     let mut grids = Vec::new();
     for path in &args.grids {
-        let opened = reopen::open(path, args.surface.as_deref(), &args.reading.opening());
+        let opened = reopen::open(path, args.surface.as_deref(), &args.reading.opening(), job);
         let mut opened = opened.map_err(Failure::of_input)?;
         recipe::tolerances(&mut opened.recipe, &args.alike);
-        grids.push((label(path), Measured::new(opened)));
+        grids.push((label(path), Measured::new(opened, job)?));
     }
+    work.told();
     for (name, measured) in &grids {
         measured.notes().iter().for_each(|n| say::note(&format!("note: {name}: {n}")));
     }

@@ -3,7 +3,9 @@
 use crate::Outcome;
 use crate::args::Edit;
 use crate::failure::Failure;
+use crate::progress::Work;
 use crate::{handover, recipe, say};
+use gridshell::Error;
 use gridshell::edit::{Editor, Figures, Log};
 use gridshell::io::GridFile;
 use gridshell::reopen::{self, Opened};
@@ -37,14 +39,15 @@ struct Step {
     after: Figures,
 }
 
-pub fn run(args: &Edit) -> Result<Outcome, Failure> {
+pub fn run(args: &Edit, work: &Work) -> Result<Outcome, Failure> {
+    let job = &work.job;
     args.output.iter().try_for_each(|path| handover::check_output(path))?;
     let structure = handover::structure(&args.handover)?;
-    let supports = handover::supports(&args.handover)?;
+    let supports = handover::supports(&args.handover, job)?;
     let log = args.log.as_deref().map(read_log).transpose()?;
     let opening = args.reading.opening();
-    let mut opened =
-        reopen::open(&args.grid, args.surface.as_deref(), &opening).map_err(Failure::of_input)?;
+    let mut opened = reopen::open(&args.grid, args.surface.as_deref(), &opening, job)
+        .map_err(Failure::of_input)?;
     recipe::tolerances(&mut opened.recipe, &args.alike);
     let Opened { document, grid, surface, edge_length, recipe, notes, .. } = opened;
     let tolerances = Tolerances::from(&recipe.measure);
@@ -52,16 +55,21 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
     let before = editor.figures();
     let faults = editor.validity(&editor.finished()).faults;
     if let (Some(log), Some(path)) = (log, &args.log) {
-        editor.replay(&log).map_err(|e| Failure::input(path, e))?;
+        editor.replay(&log, job).map_err(|e| match e {
+            Error::Stopped { .. } => Failure::from(e),
+            e => Failure::input(path, e),
+        })?;
     }
     let steps = |edits: Vec<(gridshell::edit::Edit, Figures)>| -> Vec<Step> {
         edits.into_iter().map(|(edit, after)| Step { edit, after }).collect()
     };
     let edits = steps(editor.history().map(|(e, f)| (e.clone(), f.after)).collect());
     let suggested =
-        steps(editor.suggest(args.suggest).into_iter().map(|(e, f)| (e, f.after)).collect());
+        steps(editor.suggest(args.suggest, job).into_iter().map(|(e, f)| (e, f.after)).collect());
+    // What was done is there: what remains is to write it.
+    let job = &job.after();
     let grid = editor.finished();
-    let schedule = Schedule::new(&grid, editor.surface(), &tolerances);
+    let schedule = Schedule::within(&grid, editor.surface(), &tolerances, job)?;
     let mut document = reopen::edited(&document, &editor);
     if let Some(supports) = supports {
         document.supports = supports.nodes(&grid, editor.surface())?;
@@ -80,8 +88,9 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
         )));
     }
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
-    let wrote = handover::write_all(&args.output, &file)?;
+    let wrote = handover::write_all(&args.output, &file, job)?;
     let (schema, version) = ("gridshell.edit/1", env!("CARGO_PKG_VERSION"));
+    work.told();
     if args.json {
         say::json(&Document { schema, version, before, edits, suggested })?;
         wrote.lines().for_each(say::note);
@@ -91,7 +100,7 @@ pub fn run(args: &Edit) -> Result<Outcome, Failure> {
     for n in notes.iter().chain(&look.warnings()) {
         say::note(&format!("note: {n}"));
     }
-    Ok(Outcome::Done)
+    Ok(if work.job.stopped() { Outcome::Stopped } else { Outcome::Done })
 }
 
 /// Whether the grid did not have this fault before it was edited.

@@ -24,6 +24,7 @@ impl From<Error> for Failure {
         let code = match &error {
             Error::Option(_) => USAGE,
             Error::NoGrid { .. } | Error::Invalid { .. } => NO_GRID,
+            Error::Stopped { .. } | Error::Memory(_) => STOPPED,
             Error::Io { .. } | Error::Parse { .. } | Error::Surface(_) => INPUT,
         };
         Failure { code, message: error.to_string() }
@@ -36,9 +37,11 @@ impl Failure {
     }
 
     /// For whatever went wrong while opening the input, a name that is none included.
-    #[expect(clippy::needless_pass_by_value, reason = "the shape that map_err wants")]
     pub fn of_input(error: Error) -> Failure {
-        Failure { code: INPUT, message: error.to_string() }
+        match error {
+            Error::Stopped { .. } | Error::Memory(_) => Failure::from(error),
+            _ => Failure { code: INPUT, message: error.to_string() },
+        }
     }
 
     /// For a grid that is not valid.

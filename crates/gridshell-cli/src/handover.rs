@@ -3,7 +3,9 @@
 use crate::args::Handover;
 use crate::failure::Failure;
 use crate::say;
+use gridshell::Error;
 use gridshell::io::{self, GridFile};
+use gridshell::job::Job;
 use gridshell::structure::{Material, Structure, Supports};
 use std::path::{Path, PathBuf};
 
@@ -18,13 +20,13 @@ pub fn structure(args: &Handover) -> Result<Structure, Failure> {
 }
 
 /// The supports, where they are given.
-pub fn supports(args: &Handover) -> Result<Option<Supports>, Failure> {
+pub fn supports(args: &Handover, job: &Job) -> Result<Option<Supports>, Failure> {
     Ok(match args.supports.as_deref() {
         None => None,
         Some("boundary") => Some(Supports::Boundary),
         Some("corners") => Some(Supports::Corners),
         Some("none") => Some(Supports::None),
-        Some(file) => Some(Supports::Points(io::read_anchors(Path::new(file))?)),
+        Some(file) => Some(Supports::Points(io::read_anchors(Path::new(file), job)?)),
     })
 }
 
@@ -34,11 +36,12 @@ pub fn check_output(path: &Path) -> Result<(), Failure> {
 }
 
 /// Write all outputs; gives a line on each file. One that fails does not keep the others from being written.
-pub fn write_all(outputs: &[PathBuf], file: &GridFile) -> Result<String, Failure> {
+pub fn write_all(outputs: &[PathBuf], file: &GridFile, job: &Job) -> Result<String, Failure> {
     let (mut wrote, mut failed) = (Vec::new(), Vec::new());
     for path in outputs {
-        match io::write(path, file) {
+        match io::write(path, file, job) {
             Ok(files) => wrote.extend(files.iter().map(|p| format!("wrote {}", p.display()))),
+            Err(e @ (Error::Stopped { .. } | Error::Memory(_))) => return Err(e.into()),
             Err(e) => failed.push(e.to_string()),
         }
     }

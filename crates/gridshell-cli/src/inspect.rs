@@ -3,6 +3,7 @@
 use crate::Outcome;
 use crate::args::Inspect;
 use crate::failure::Failure;
+use crate::progress::Work;
 use crate::{picture, say, table};
 use gridshell::inspect::{self, Inspection};
 use gridshell::io;
@@ -18,15 +19,17 @@ struct Document {
     inspection: Inspection,
 }
 
-pub fn run(args: &Inspect) -> Result<Outcome, Failure> {
+pub fn run(args: &Inspect, work: &Work) -> Result<Outcome, Failure> {
+    let job = &work.job;
     args.picture.iter().try_for_each(|file| picture::check(file))?;
     let opening = args.reading.opening();
-    let model = io::open_with(&args.surface, &opening).map_err(Failure::of_input)?;
-    let inspection = inspect::inspect(&model)?;
+    let model = io::open_with(&args.surface, &opening, job).map_err(Failure::of_input)?;
+    let inspection = inspect::inspect(&model, job)?;
     if !args.picture.is_empty() {
-        let sketch = inspect::sketch(&model)?;
+        let sketch = inspect::sketch(&model, job)?;
         args.picture.iter().try_for_each(|file| picture::draw(&sketch, file))?;
     }
+    work.told();
     if args.json {
         let version = env!("CARGO_PKG_VERSION");
         say::json(&Document { schema: "gridshell.inspect/1", version, units: "m", inspection })?;

@@ -26,6 +26,7 @@ mod table;
 use args::{Args, Command};
 use clap::Parser;
 use failure::Failure;
+use progress::Work;
 use std::process::ExitCode;
 
 /// How a command that did not fail has ended.
@@ -39,18 +40,26 @@ pub enum Outcome {
 fn main() -> ExitCode {
     // A usage error leaves with code 2 here.
     let args = Args::parse();
-    let result = match &args.command {
-        Command::Generate(args) => generate::run(args),
-        Command::Measure(args) => measure::run(args),
-        Command::Edit(args) => edit::run(args),
-        Command::Convert(args) => convert::run(args),
-        Command::Draw(args) => draw::run(args),
-        Command::Compare(args) => compare::run(args),
-        Command::Inspect(args) => inspect::run(args),
+    let limits = &args.limits;
+    let work = match &args.command {
         #[cfg(feature = "studio")]
-        Command::Studio(args) => studio::run(args),
+        // Its runs have jobs of their own; an interrupt ends it.
+        Command::Studio(_) => Work::new(limits),
+        _ => Work::interruptible(limits),
+    };
+    let result = match &args.command {
+        Command::Generate(args) => generate::run(args, &work),
+        Command::Measure(args) => measure::run(args, &work),
+        Command::Edit(args) => edit::run(args, &work),
+        Command::Convert(args) => convert::run(args, &work),
+        Command::Draw(args) => draw::run(args, &work),
+        Command::Compare(args) => compare::run(args, &work),
+        Command::Inspect(args) => inspect::run(args, &work),
+        #[cfg(feature = "studio")]
+        Command::Studio(args) => studio::run(args, limits),
         Command::Surfaces => surfaces::run(),
     };
+    work.told();
     match result {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Stopped) => ExitCode::from(failure::STOPPED),

@@ -3,6 +3,7 @@
 use crate::Outcome;
 use crate::args::Measure;
 use crate::failure::Failure;
+use crate::progress::Work;
 use crate::subject::Measured;
 use crate::{open, report, say, table};
 use gridshell::run::SurfaceSummary;
@@ -30,11 +31,13 @@ struct Document<'a> {
     warnings: Vec<String>,
 }
 
-pub fn run(args: &Measure) -> Result<Outcome, Failure> {
+pub fn run(args: &Measure, work: &Work) -> Result<Outcome, Failure> {
+    let job = &work.job;
     args.report.as_deref().map_or(Ok(()), report::check)?;
-    let measured = Measured::new(open::open(&args.grid)?);
+    let measured = Measured::new(open::open(&args.grid, job)?, job)?;
     let subject = measured.subject();
     let (name, quality, figures) = (subject.name(), subject.quality, &subject.schedule.figures);
+    work.told();
     if let Some(path) = &args.report {
         report::write(path, &report::page(&subject, None))?;
         say::note(&format!("wrote {}", path.display()));
@@ -56,8 +59,9 @@ pub fn run(args: &Measure) -> Result<Outcome, Failure> {
         })?;
     } else {
         let warnings = measured.validity().warnings();
-        let warnings: Vec<String> = warnings.iter().map(|w| format!("warning: {w}\n")).collect();
-        say::result(&(table::grid(name, quality, figures) + &warnings.concat()))?;
+        let warnings =
+            warnings.iter().fold(String::new(), |all, w| all + &format!("warning: {w}\n"));
+        say::result(&(table::grid(name, quality, figures) + &warnings))?;
     }
     measured.notes().iter().for_each(|n| say::note(&format!("note: {n}")));
     Ok(Outcome::Done)

@@ -3,6 +3,7 @@
 use crate::args::{Alike, Generate};
 use crate::failure::Failure;
 use gridshell::io;
+use gridshell::job::Job;
 use gridshell::recipe::{Direction, Recipe, Size};
 use std::path::Path;
 use toml::{Table, Value};
@@ -12,7 +13,7 @@ const MAX_BYTES: u64 = 1 << 20;
 
 /// The recipe that the arguments ask for, checked.
 /// What they do not say is as in `again`, the recipe of a run to be repeated, if there is one and no method is named.
-pub fn from_args(args: &Generate, again: Option<&Recipe>) -> Result<Recipe, Failure> {
+pub fn from_args(args: &Generate, again: Option<&Recipe>, job: &Job) -> Result<Recipe, Failure> {
     let mut recipe = match (&args.method, again) {
         (None, Some(recipe)) => recipe.clone(),
         (method, _) => Recipe::named(method.as_deref().unwrap_or("default"))?,
@@ -37,26 +38,28 @@ pub fn from_args(args: &Generate, again: Option<&Recipe>) -> Result<Recipe, Fail
     recipe.smooth_input |= args.smooth_input;
     recipe.keep_invalid |= args.keep_invalid;
     if let Some(path) = &args.guides {
-        let guides = io::read_guides(path)?;
+        let guides = io::read_guides(path, job)?;
         recipe.guides =
             guides.into_iter().map(|g| g.into_iter().map(|p| p.to_array()).collect()).collect();
     }
     if let Some(path) = &args.anchors {
-        recipe.anchors = io::read_anchors(path)?.into_iter().map(|p| p.to_array()).collect();
+        recipe.anchors = io::read_anchors(path, job)?.into_iter().map(|p| p.to_array()).collect();
     }
     recipe.anchors.extend(&args.anchor);
     if let Some(size) = &args.size {
         recipe.size = match size.as_str() {
             "uniform" => Size::Uniform,
             "curvature" => Size::curvature(),
-            file => Size::Points { points: io::read_lengths(Path::new(file))? },
+            file => Size::Points { points: io::read_lengths(Path::new(file), job)? },
         };
     }
     if let Some(direction) = &args.direction {
         recipe.direction = match (direction.as_str(), vector(direction)) {
             ("boundary", _) => Direction::Boundary,
             (_, Some(xyz)) => Direction::Vector { xyz },
-            (file, None) => Direction::Points { points: io::read_directions(Path::new(file))? },
+            (file, None) => {
+                Direction::Points { points: io::read_directions(Path::new(file), job)? }
+            }
         };
     }
     if let Some(symmetry) = &args.symmetry {

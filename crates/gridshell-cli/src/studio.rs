@@ -1,8 +1,9 @@
 //! `gridshell studio`: the server, and the browser that is opened at it.
 
 use crate::Outcome;
-use crate::args::Studio;
+use crate::args::{Limits, Studio};
 use crate::failure::Failure;
+use crate::progress::memory_limit;
 use crate::subject::Subject;
 use crate::{report, say};
 use gridshell_studio::{Error, Options, Reported};
@@ -11,8 +12,12 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 
-pub fn run(args: &Studio) -> Result<Outcome, Failure> {
+pub fn run(args: &Studio, limits: &Limits) -> Result<Outcome, Failure> {
+    if limits.time_limit.is_some() {
+        return Err(Failure::usage("the studio has no time limit: leave out `--time-limit`"));
+    }
     let options = Options {
+        memory_limit: memory_limit(limits),
         surface: args.surface.clone(),
         port: args.port,
         log: Arc::new(say::note),

@@ -2,10 +2,11 @@
 
 use gridshell::grid::Grid;
 use gridshell::io::Document;
+use gridshell::job::Job;
 use gridshell::reopen::Opened;
 use gridshell::run::{Run, SurfaceSummary};
 use gridshell::schedule::{Schedule, Tolerances};
-use gridshell::stages::measure::{Quality, measure};
+use gridshell::stages::measure::{Quality, measure_within};
 use gridshell::validity::Validity;
 
 /// A grid with all that is known of it. Metres.
@@ -28,12 +29,13 @@ pub struct Measured {
 }
 
 impl Measured {
-    pub fn new(opened: Opened) -> Measured {
+    pub fn new(opened: Opened, job: &Job) -> gridshell::Result<Measured> {
         let options = &opened.recipe.measure;
-        let quality = measure(&opened.grid, &opened.surface, opened.edge_length, options);
-        let schedule = Schedule::new(&opened.grid, &opened.surface, &Tolerances::from(options));
-        let validity = Validity::of(&opened.grid, &opened.surface, opened.edge_length, &quality);
-        Measured { opened, schedule, quality, validity }
+        let (grid, surface) = (&opened.grid, &opened.surface);
+        let quality = measure_within(grid, surface, opened.edge_length, options, job)?;
+        let schedule = Schedule::within(grid, surface, &Tolerances::from(options), job)?;
+        let validity = Validity::of(grid, surface, opened.edge_length, &quality);
+        Ok(Measured { opened, schedule, quality, validity })
     }
 
     pub fn subject(&self) -> Subject<'_> {

@@ -265,6 +265,82 @@ fn a_time_limit_leaves_with_5_and_the_best_grid_so_far() {
 }
 
 #[test]
+fn a_time_limit_ends_every_command_with_5() {
+    let folder = folder();
+    fs::write(folder.path().join("large.obj"), sheet(300)).expect("written");
+    let run = gridshell(folder.path(), "generate hexagon --edge-length 0.5 -o grid.gridshell");
+    assert_eq!(code(&run), 0, "{}", stderr(&run));
+    for args in [
+        "inspect large.obj",
+        "generate large.obj --nodes 50000",
+        "measure large.obj --report r.html",
+        "convert large.obj -o large.ifc",
+        "draw large.obj -o large.svg",
+        "compare large.obj large.obj",
+    ] {
+        let run = gridshell(folder.path(), &format!("{args} --time-limit 0.000001"));
+        assert_eq!(code(&run), 5, "{args}: {}", stderr(&run));
+        assert!(stderr(&run).contains("stopped"), "{args}: {}", stderr(&run));
+    }
+    assert!(!folder.path().join("large.ifc").exists());
+}
+
+#[test]
+fn a_memory_limit_is_told_and_leaves_with_5() {
+    let folder = folder();
+    fs::write(folder.path().join("sheet.obj"), sheet(30)).expect("written");
+    for args in [
+        "generate hexagon -n 400 --memory-limit 1M",
+        "generate hexagon -n 3000000 --memory-limit 500M",
+        "inspect sheet.obj --memory-limit 1M",
+        "measure sheet.obj --memory-limit 1000k",
+    ] {
+        let run = gridshell(folder.path(), args);
+        assert_eq!(code(&run), 5, "{args}: {}", stderr(&run));
+        assert!(stderr(&run).contains("memory limit"), "{args}: {}", stderr(&run));
+    }
+    for size in ["0", "many", "-1G", "2X"] {
+        let run = gridshell(folder.path(), &format!("generate hexagon --memory-limit={size}"));
+        assert_eq!(code(&run), 2, "{size}: {}", stderr(&run));
+    }
+}
+
+/// SIGTERM and SIGINT while the surface is prepared: the program ends by itself, with 5 or with what it had done.
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_the_command_while_the_surface_is_prepared() {
+    let folder = folder();
+    for signal in ["TERM", "INT"] {
+        let mut run = Command::new(env!("CARGO_BIN_EXE_gridshell"))
+            .args(["generate", "hexagon", "-n", "2000000", "--effort", "draft"])
+            .current_dir(folder.path())
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .expect("the command starts");
+        std::thread::sleep(std::time::Duration::from_secs(1));
+        let sent =
+            Command::new("kill").args([&format!("-{signal}"), &run.id().to_string()]).status();
+        assert!(sent.expect("there is a kill").success());
+        assert_eq!(run.wait().expect("it ends").code(), Some(5), "{signal}");
+    }
+}
+
+/// A wavy sheet of squares, as OBJ with triangles.
+fn sheet(side: usize) -> String {
+    let mut text = String::new();
+    for k in 0..(side + 1) * (side + 1) {
+        let (x, y) = ((k / (side + 1)) as f64, (k % (side + 1)) as f64);
+        text += &format!("v {x} {y} {}\n", 0.1 * (x - y) * (x + y) / side as f64);
+    }
+    for k in 0..side * side {
+        let a = 1 + k / side * (side + 1) + k % side;
+        let (b, c, d) = (a + side + 1, a + side + 2, a + 1);
+        text += &format!("f {a} {b} {c}\nf {a} {c} {d}\n");
+    }
+    text
+}
+
+#[test]
 fn flags_override_the_recipe_and_the_rest_of_it_stands() {
     let folder = folder();
     fs::write(

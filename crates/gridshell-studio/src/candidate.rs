@@ -41,7 +41,7 @@ pub fn taken(laid: &Laid, index: u32, job: &Job) -> Result<Run> {
             "candidates of symmetric grids and of several parts are pieces of a grid only";
         return Err(Error::Option(message.into()));
     }
-    let (surface, _) = pipeline::surface(&laid.opened.model, &run.recipe)?;
+    let (surface, _) = pipeline::surface(&laid.opened.model, &run.recipe, job)?;
     let options = &run.recipe.measure;
     let judge = |grid: &Grid| measure(grid, &surface, run.edge_length, options);
     let stage = |name, seconds, converged, grid: &Grid| StageReport {

@@ -3,6 +3,7 @@
 use crate::message::{Event, Step};
 use gridshell::edit::{Edit, Editor, Effect, Refusal};
 use gridshell::error::{Error, Result};
+use gridshell::job::Job;
 use gridshell::pipeline;
 use gridshell::run::Run;
 use gridshell::surface::Model;
@@ -16,8 +17,8 @@ const SUGGESTED: usize = 8;
 ///
 /// # Errors
 /// What making the surface anew says.
-pub fn editor(model: &Model, run: &Run) -> Result<Editor> {
-    let (surface, _) = pipeline::surface(model, &run.recipe)?;
+pub fn editor(model: &Model, run: &Run, job: &Job) -> Result<Editor> {
+    let (surface, _) = pipeline::surface(model, &run.recipe, job)?;
     Ok(Editor::new(Arc::new(surface), run.grid.clone(), run.recipe.clone(), run.edge_length))
 }
 
@@ -60,7 +61,7 @@ pub fn hover(run: u32, question: u32, editor: &Editor, [a, b]: [u32; 2]) -> Even
 
 /// The edits that would better the grid most.
 pub fn suggest(run: u32, editor: &Editor) -> Event {
-    let steps = editor.suggest(SUGGESTED);
+    let steps = editor.suggest(SUGGESTED, &Job::default());
     let steps = steps.into_iter().map(|(edit, effect)| step(editor, &edit, &Ok(effect))).collect();
     Event::Suggested { run, steps }
 }

@@ -4,6 +4,7 @@ use crate::laid::{Finished, Laid};
 use gridshell::error::{Error, Result};
 use gridshell::grid::Grid;
 use gridshell::io::{self, Document, GridFile};
+use gridshell::job::Job;
 use gridshell::run::Run;
 use gridshell::schedule::Schedule;
 use gridshell::stages::measure::{Quality, irregular_nodes};
@@ -69,7 +70,7 @@ fn grid(laid: &Laid, path: &Path) -> Result<()> {
     let Finished { document, schedule, .. } = laid.finished();
     let structure = Structure::default();
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
-    io::write(path, &file).map(|_| ())
+    io::write(path, &file, &Job::default()).map(|_| ())
 }
 
 /// Several files as one.

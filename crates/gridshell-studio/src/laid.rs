@@ -7,6 +7,7 @@ use gridshell::edit::Editor;
 use gridshell::error::Result;
 use gridshell::grid::Grid;
 use gridshell::io::{Document, Reference};
+use gridshell::job::Job;
 use gridshell::recipe::Recipe;
 use gridshell::reopen;
 use gridshell::run::Run;
@@ -129,7 +130,7 @@ impl Laid {
     pub fn edit<T>(&self, work: impl FnOnce(&mut Editor) -> Result<T>) -> Result<T> {
         let mut now = self.now();
         if let (None, Some(run)) = (&now.editor, &self.run) {
-            let editor = editing::editor(&self.opened.model, run)?;
+            let editor = editing::editor(&self.opened.model, run, &Job::default())?;
             *now = Now::of(editor, self.edge_length, &self.recipe);
         }
         let editor = now.editor.as_mut().expect("a grid from a file has one from the start");

@@ -5,6 +5,7 @@ use crate::laid::Laid;
 use crate::message::{Event, Progress, Shows};
 use crate::opened::Opened;
 use crate::scene;
+use gridshell::Error;
 use gridshell::job::{self, Job, Picture};
 use gridshell::pipeline;
 use gridshell::recipe::{Effort, Recipe, RegularizeMethod};
@@ -37,7 +38,7 @@ impl Going {
 
 /// Begin to lay a grid. The draft gets the number `number`, the grid the next one.
 pub fn start(desk: &Arc<Desk>, opened: Arc<Opened>, recipe: Recipe, number: u32) -> Going {
-    let job = Job::default();
+    let job = desk.job();
     let began = Instant::now();
     let progress = Progress {
         run: number,
@@ -89,11 +90,17 @@ fn lay_both(
     began: Instant,
     number: u32,
 ) -> Result<Option<u32>, String> {
+    let mut draft = None;
     if has_draft(recipe) {
         let quick = Recipe { effort: Effort::Draft, candidates: None, ..recipe.clone() };
-        let draft = lay(desk, opened, &quick, job, progress, began, number)?;
+        draft = match lay(desk, opened, &quick, job, progress, began, number) {
+            Ok(draft) => Some(draft),
+            // Who asked for it need not be told.
+            Err(Error::Stopped { .. }) => return Ok(None),
+            Err(e) => return Err(e.to_string()),
+        };
         if job.stopped() {
-            return Ok(Some(draft));
+            return Ok(draft);
         }
     }
     let next = Progress {
@@ -104,7 +111,11 @@ fn lay_both(
         seconds: 0.0,
     };
     *progress.lock().unwrap_or_else(PoisonError::into_inner) = next;
-    lay(desk, opened, recipe, job, progress, began, number + 1).map(Some)
+    match lay(desk, opened, recipe, job, progress, began, number + 1) {
+        Ok(run) => Ok(Some(run)),
+        Err(Error::Stopped { .. }) => Ok(draft),
+        Err(e) => Err(e.to_string()),
+    }
 }
 
 fn lay(
@@ -115,7 +126,7 @@ fn lay(
     progress: &Arc<Mutex<Progress>>,
     began: Instant,
     number: u32,
-) -> Result<u32, String> {
+) -> gridshell::Result<u32> {
     let watcher = Mutex::new(Watcher::new(number));
     let (shown_on, told_in) = (Arc::clone(desk), Arc::clone(progress));
     let watched = job.clone().with_progress(move |p| {
@@ -124,7 +135,7 @@ fn lay(
             watcher.see(p, &shown_on, &told_in, began);
         }
     });
-    let run = pipeline::generate(&opened.model, recipe, &watched).map_err(|e| e.to_string())?;
+    let run = pipeline::generate(&opened.model, recipe, &watched)?;
     desk.keep(Laid::of_run(number, run, Arc::clone(opened), None));
     Ok(number)
 }
@@ -181,7 +192,9 @@ impl Watcher {
             Picture::Bubbles { xyz, scales, diameter } => {
                 desk.show_live(scene::bubbles(self.number, xyz, scales, diameter));
             }
-            Picture::Grid(grid) => desk.show_live(scene::grid(Shows::Live, self.number, grid)),
+            Picture::Grid { mesh, xyz } => {
+                desk.show_live(scene::nodes_of(Shows::Live, self.number, mesh, xyz));
+            }
         }
         self.shown = Some(now);
     }

@@ -58,6 +58,8 @@ pub struct Options {
     pub state: Option<PathBuf>,
     /// Makes a page on a grid; without it no reports can be exported.
     pub report: Option<Report>,
+    /// What the process may hold in memory before work is refused or stopped, bytes.
+    pub memory_limit: Option<u64>,
 }
 
 /// Why the studio cannot be opened.
@@ -99,7 +101,7 @@ impl Studio {
     /// # Errors
     /// [`Error`].
     pub async fn bind(options: Options) -> Result<Studio, Error> {
-        let desk = Arc::new(Desk::new(options.report));
+        let desk = Arc::new(Desk::new(options.report, options.memory_limit));
         desk.open(&options.surface).map_err(Error::Surface)?;
         if let Some(folder) = &options.state
             && let Err(e) = desk.keep_in(folder, Arc::clone(&options.log))

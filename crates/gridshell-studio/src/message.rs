@@ -434,7 +434,7 @@ pub struct Progress {
     pub run: u32,
     /// Whether this is the quick one that is shown before.
     pub draft: bool,
-    /// `prepare`, `pack`, `triangulate`, `regularize` or `relax`.
+    /// `prepare`, `surface`, `fix`, `flatten`, `pack`, `triangulate`, `regularize`, `relax` or `measure`.
     pub stage: String,
     /// Share of the stage, 0 to 1.
     pub fraction: f64,

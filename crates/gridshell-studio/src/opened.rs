@@ -6,6 +6,7 @@ use axum::body::Bytes;
 use gridshell::error::{Error, Result};
 use gridshell::inspect::{self, Sketch};
 use gridshell::io::{self, Choice, Document, Opening, Reference};
+use gridshell::job::Job;
 use gridshell::surface::{Model, PolygonMesh, Surface, builtin};
 use std::path::Path;
 
@@ -30,37 +31,37 @@ impl Opened {
     ///
     /// # Errors
     /// [`Error::Option`] where there is none.
-    pub fn built_in(name: &str) -> Result<Opened> {
+    pub fn built_in(name: &str, job: &Job) -> Result<Opened> {
         let model = builtin::model(name)
             .ok_or_else(|| Error::Option(format!("there is no built-in surface `{name}`")))?;
-        Opened::new(model, Some(Reference::Builtin(name.to_owned())), None)
+        Opened::new(model, Some(Reference::Builtin(name.to_owned())), None, job)
     }
 
     /// The built-in surface of this name, else the file at this path.
     ///
     /// # Errors
     /// What [`io::open_with`] and [`inspect::inspect`] say.
-    pub fn named(name_or_path: &str, opening: &Opening) -> Result<Opened> {
+    pub fn named(name_or_path: &str, opening: &Opening, job: &Job) -> Result<Opened> {
         if builtin::model(name_or_path).is_some() {
-            return Opened::built_in(name_or_path);
+            return Opened::built_in(name_or_path, job);
         }
-        let model = io::open_with(name_or_path, opening)?;
-        let reference = io::reference(name_or_path, opening)?;
-        Opened::new(model, Some(reference), Some(contents(Path::new(name_or_path))?))
+        let model = io::open_with(name_or_path, opening, job)?;
+        let reference = io::reference(name_or_path, opening, job)?;
+        Opened::new(model, Some(reference), Some(contents(Path::new(name_or_path))?), job)
     }
 
     /// A file of these contents that was sent under `name`; messages tell of the name.
     ///
     /// # Errors
     /// As [`Opened::named`].
-    pub fn sent(name: &str, file: &Bytes, opening: &Opening) -> Result<Opened> {
+    pub fn sent(name: &str, file: &Bytes, opening: &Opening, job: &Job) -> Result<Opened> {
         in_folder(name, file, |path| {
-            let model = io::load(path, opening)?;
-            let mut reference = io::reference(&path.to_string_lossy(), opening)?;
+            let model = io::load(path, opening, job)?;
+            let mut reference = io::reference(&path.to_string_lossy(), opening, job)?;
             if let Reference::File { path, .. } = &mut reference {
                 name.clone_into(path);
             }
-            Opened::new(model, Some(reference), Some(file.clone()))
+            Opened::new(model, Some(reference), Some(file.clone()), job)
         })
     }
 
@@ -68,14 +69,14 @@ impl Opened {
     ///
     /// # Errors
     /// [`Error::Option`] where it is no file; as [`Opened::named`].
-    pub fn chosen(&self, choice: Choice) -> Result<Opened> {
+    pub fn chosen(&self, choice: Choice, job: &Job) -> Result<Opened> {
         let (Some(Reference::File { path, opening, .. }), Some(file)) =
             (&self.reference, &self.file)
         else {
             return Err(Error::Option("only in a file there is something to choose from".into()));
         };
         let name = Path::new(path).file_name().unwrap_or_default().to_string_lossy();
-        let mut opened = Opened::sent(&name, file, &Opening { choice, ..opening.clone() })?;
+        let mut opened = Opened::sent(&name, file, &Opening { choice, ..opening.clone() }, job)?;
         if let Some(Reference::File { path: told, .. }) = &mut opened.reference {
             told.clone_from(path);
         }
@@ -86,8 +87,8 @@ impl Opened {
     ///
     /// # Errors
     /// As [`io::open_reference`].
-    pub fn referred(reference: &Reference, path: &Path) -> Result<Opened> {
-        let model = io::open_reference(reference, path)?;
+    pub fn referred(reference: &Reference, path: &Path, job: &Job) -> Result<Opened> {
+        let model = io::open_reference(reference, path, job)?;
         let file = match reference {
             Reference::Builtin(_) => None,
             Reference::File { path: to, .. } => {
@@ -95,26 +96,31 @@ impl Opened {
                 Some(contents(if near.exists() { &near } else { Path::new(to) })?)
             }
         };
-        Opened::new(model, Some(reference.clone()), file)
+        Opened::new(model, Some(reference.clone()), file, job)
     }
 
     /// The grid of a document, as its own surface.
     ///
     /// # Errors
     /// [`Error::Surface`] where its panels are no surface.
-    pub fn alone(document: &Document) -> Result<Opened> {
+    pub fn alone(document: &Document, job: &Job) -> Result<Opened> {
         let mesh = PolygonMesh {
             name: document.name.clone(),
             points: document.nodes.iter().map(|&p| p.into()).collect(),
             faces: document.panels.iter().map(|t| t.to_vec()).collect(),
             ..PolygonMesh::default()
         };
-        Opened::new(Model::Mesh(mesh), None, None)
+        Opened::new(Model::Mesh(mesh), None, None, job)
     }
 
-    fn new(model: Model, reference: Option<Reference>, file: Option<Bytes>) -> Result<Opened> {
-        let inspection = inspect::inspect(&model)?;
-        let sketch = inspect::sketch(&model)?;
+    fn new(
+        model: Model,
+        reference: Option<Reference>,
+        file: Option<Bytes>,
+        job: &Job,
+    ) -> Result<Opened> {
+        let inspection = inspect::inspect(&model, job)?;
+        let sketch = inspect::sketch(&model, job)?;
         let built_in = matches!(reference, Some(Reference::Builtin(_)));
         let info = told::info(&inspection, &sketch.surface, built_in);
         let frame = scene::surface(&sketch);

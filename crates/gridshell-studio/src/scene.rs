@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use gridshell::degree::{REGULAR, adjusted_degree};
 use gridshell::grid::Grid;
 use gridshell::inspect::Sketch;
+use gridshell::mesh::Mesh;
 use gridshell::surface::Chain;
 
 /// Small pictures of larger grids show their boundary only.
@@ -73,13 +74,17 @@ pub fn thumbnails<'a>(run: u32, grids: impl Iterator<Item = &'a Grid>) -> Bytes 
 
 /// A grid, with the members on creases and guides, the nodes that do not move, its irregular nodes and by how much their adjusted degree exceeds 6.
 pub fn grid(shows: Shows, run: u32, grid: &Grid) -> Bytes {
-    let mesh = &grid.mesh;
-    let excess = |v: u32| adjusted_degree(mesh, &grid.xyz, v) - REGULAR;
+    nodes_of(shows, run, &grid.mesh, &grid.xyz)
+}
+
+/// How the page draws a mesh with its nodes at these places.
+pub fn nodes_of(shows: Shows, run: u32, mesh: &Mesh, xyz: &[DVec3]) -> Bytes {
+    let excess = |v: u32| adjusted_degree(mesh, xyz, v) - REGULAR;
     let irregular: Vec<(u32, i32)> =
         mesh.vertices().map(|v| (v, excess(v))).filter(|n| n.1 != 0).collect();
     let features = mesh.edges().filter(|&(a, b)| mesh.is_feature_edge(a, b));
     Frame::new(shows, run)
-        .points("xyz", &grid.xyz)
+        .points("xyz", xyz)
         .wholes("panels", mesh.triangles().flatten())
         .wholes("members", mesh.edges().flat_map(|(a, b)| [a, b]))
         .wholes("features", features.flat_map(|(a, b)| [a, b]))

@@ -14,6 +14,7 @@ use crate::laid::{Finished, Laid};
 use crate::message::Left;
 use gridshell::error::{Error, Result};
 use gridshell::io::{self, Document, GridFile, Reference};
+use gridshell::job::Job;
 use gridshell::structure::Structure;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -147,7 +148,8 @@ fn write(folder: &Path, laid: &Laid) -> Result<()> {
     }
     let structure = Structure::default();
     let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
-    io::write(&folder.join(format!("{}.gridshell", laid.number)), &file).map(|_| ())
+    io::write(&folder.join(format!("{}.gridshell", laid.number)), &file, &Job::default())
+        .map(|_| ())
 }
 
 fn remove(folder: &Path, number: u32) -> std::io::Result<()> {
@@ -196,7 +198,9 @@ impl Ended {
         let numbered = grids(&folder).ok()?;
         let time = |p: &PathBuf| fs::metadata(p).and_then(|m| m.modified()).ok();
         let when = numbered.iter().filter_map(|n| time(&n.1)).max();
-        let read = |(_, path): (u32, PathBuf)| Some((path.clone(), io::read_document(&path).ok()?));
+        let read = |(_, path): (u32, PathBuf)| {
+            Some((path.clone(), io::read_document(&path, &Job::default()).ok()?))
+        };
         let empty = numbered.is_empty();
         let grids: Vec<_> = numbered.into_iter().filter_map(read).collect();
         let ended = Ended { grids, folder, when: when.unwrap_or(UNIX_EPOCH), lock };
@@ -255,7 +259,7 @@ mod tests {
         );
         let structure = Structure::default();
         let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
-        io::write(&folder.join("3.gridshell"), &file).unwrap();
+        io::write(&folder.join("3.gridshell"), &file, &Job::default()).unwrap();
     }
 
     #[test]

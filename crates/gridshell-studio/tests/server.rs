@@ -4,6 +4,7 @@
 
 use futures_util::{SinkExt, StreamExt};
 use gridshell::io::Opening;
+use gridshell::job::Job;
 use gridshell_studio::{Options, Studio};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -35,6 +36,7 @@ async fn up() -> Up {
         page: Some(PathBuf::from(page.path())),
         state: None,
         report: Some(|grid| format!("{} nodes", grid.grid.xyz.len())),
+        memory_limit: None,
     };
     let studio = Studio::bind(options).await.unwrap();
     let address = studio.address();
@@ -200,7 +202,8 @@ async fn a_grid_file_comes_back_as_it_was_and_reads_nothing_else_from_the_disk()
     let folder = tempfile::tempdir().unwrap();
     let secret = folder.path().join("secret.obj");
     std::fs::write(&secret, "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n").unwrap();
-    let reference = gridshell::io::reference(&secret.to_string_lossy(), &Opening::default());
+    let reference =
+        gridshell::io::reference(&secret.to_string_lossy(), &Opening::default(), &Job::default());
     let told = serde_json::to_string(&reference.unwrap()).unwrap();
     let file = file.replace("{\"builtin\":\"hexagon\"}", &told);
     assert!(file.contains("secret.obj"));

@@ -37,7 +37,8 @@ impl Size {
             chord_error: 2e-3 * length,
             corner_angle: recipe.corner_angle_deg.to_radians(),
         };
-        let surface = builtin::model("saddle").unwrap().surface(&sampling).unwrap();
+        let surface =
+            builtin::model("saddle").unwrap().surface(&sampling, &Job::default()).unwrap();
         let pieces = pack::boundary::pieces(&surface);
         let counts: Vec<usize> =
             pieces.iter().map(|p| pack::boundary::member_count(p, length)).collect();
@@ -50,10 +51,11 @@ impl Size {
             &bubbles.xyz(&surface),
             0.6 * length,
             &mut fastrand::Rng::with_seed(1),
+            &Job::default(),
         );
         let mut settled = bubbles.clone();
         pack::settle(&surface, &mut settled, length, &recipe.pack, &Job::default());
-        let grid = triangulate::triangulate(&surface, &settled).unwrap().0;
+        let grid = triangulate::triangulate(&surface, &settled, &Job::default()).unwrap().0;
         Size { length, recipe, surface, bubbles, grid }
     }
 }
@@ -74,7 +76,9 @@ fn stages(criterion: &mut Criterion) {
             );
         });
         group.bench_function(id("triangulate"), |b| {
-            b.iter(|| triangulate::triangulate(surface, black_box(bubbles)).unwrap());
+            b.iter(|| {
+                triangulate::triangulate(surface, black_box(bubbles), &Job::default()).unwrap()
+            });
         });
         group.bench_function(id("regularize"), |b| {
             b.iter_batched(
@@ -113,20 +117,24 @@ fn scale(criterion: &mut Criterion) {
         let sampling =
             Sampling { max_edge: 0.7 * length, chord_error: 2e-3 * length, corner_angle: 0.5 };
         let model = builtin::model("saddle").unwrap();
-        let surface = model.surface(&sampling).unwrap();
-        let flatten = || Chart::flatten(&surface).unwrap();
+        let surface = model.surface(&sampling, &Job::default()).unwrap();
+        let flatten = || Chart::flatten(&surface, &Job::default()).unwrap().unwrap();
         let chart = flatten();
         let mut rng = fastrand::Rng::with_seed(1);
         let pieces = pack::boundary::pieces(&surface).len();
         let lattice = pack::lattice::Lattice::draw(pieces, &mut rng);
-        let lay = || lattice.bubbles(&surface, &chart, length, 1.0, None);
+        let lay = || lattice.bubbles(&surface, &chart, length, 1.0, None, &Job::default());
         let bubbles = lay();
-        let connect = || triangulate::triangulate_in_chart(&surface, &chart, &bubbles).unwrap();
+        let connect = || {
+            triangulate::triangulate_in_chart(&surface, &chart, &bubbles, &Job::default()).unwrap()
+        };
         let grid = connect();
         let id = |stage: &str| BenchmarkId::new(stage, format!("{} nodes", grid.xyz.len()));
         let mut group = criterion.benchmark_group("scale");
         group.sample_size(10);
-        group.bench_function(id("tessellate"), |b| b.iter(|| model.surface(&sampling).unwrap()));
+        group.bench_function(id("tessellate"), |b| {
+            b.iter(|| model.surface(&sampling, &Job::default()).unwrap());
+        });
         group.bench_function(id("flatten"), |b| b.iter(flatten));
         group.bench_function(id("lay a lattice"), |b| b.iter(lay));
         group.bench_function(id("triangulate in the chart"), |b| b.iter(connect));
@@ -153,12 +161,14 @@ fn edit(criterion: &mut Criterion) {
     for length in [0.76, 0.48] {
         let sampling =
             Sampling { max_edge: 0.7 * length, chord_error: 2e-3 * length, corner_angle: 0.5 };
-        let surface = builtin::model("saddle").unwrap().surface(&sampling).unwrap();
+        let surface =
+            builtin::model("saddle").unwrap().surface(&sampling, &Job::default()).unwrap();
         let pieces = pack::boundary::pieces(&surface).len();
-        let chart = Chart::flatten(&surface).unwrap();
+        let chart = Chart::flatten(&surface, &Job::default()).unwrap().unwrap();
         let lattice = pack::lattice::Lattice::draw(pieces, &mut fastrand::Rng::with_seed(1));
-        let bubbles = lattice.bubbles(&surface, &chart, length, 1.0, None);
-        let mut grid = triangulate::triangulate_in_chart(&surface, &chart, &bubbles).unwrap();
+        let bubbles = lattice.bubbles(&surface, &chart, length, 1.0, None, &Job::default());
+        let mut grid =
+            triangulate::triangulate_in_chart(&surface, &chart, &bubbles, &Job::default()).unwrap();
         grid.settle_exactly(&surface);
         let recipe = Recipe { edge_length: Some(length), ..Recipe::default() };
         let mut editor = Editor::new(Arc::new(surface), grid, recipe, length);
@@ -173,7 +183,7 @@ fn edit(criterion: &mut Criterion) {
             b.iter(|| editor.preview(black_box(&flip)).unwrap());
         });
         group.bench_function(id("hover"), |b| b.iter(|| editor.hover(nodes[0], nodes[1])));
-        group.bench_function(id("suggest 10"), |b| b.iter(|| editor.suggest(10)));
+        group.bench_function(id("suggest 10"), |b| b.iter(|| editor.suggest(10, &Job::default())));
         let id = id("apply and undo a flip");
         group.bench_function(id, |b| {
             b.iter(|| {

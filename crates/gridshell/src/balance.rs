@@ -13,7 +13,7 @@
 mod system;
 
 use crate::grid::{Grid, Place};
-use crate::job::{Job, Picture};
+use crate::job::Job;
 use crate::math::frame::tangents;
 use crate::surface::Surface;
 use glam::DVec3;
@@ -63,7 +63,7 @@ pub fn balance(surface: &Surface, grid: &mut Grid, options: &Options, job: &Job)
     let mut system = System::new(surface, grid, options);
     let mut energy = None;
     while report.steps < options.max_steps && !job.stopped() {
-        let (step, here) = system.step(surface, grid);
+        let (step, here) = system.step(surface, grid, job);
         let before = energy.unwrap_or(here);
         let longest = step.iter().map(|d| d.length_squared()).fold(0.0, f64::max).sqrt();
         let mut scale = (REACH * system.mean / longest).min(1.0);
@@ -87,7 +87,7 @@ pub fn balance(surface: &Surface, grid: &mut Grid, options: &Options, job: &Job)
         report.converged = !lower || gain < LEAST_GAIN || report.last_move < options.settled;
         report.steps += 1;
         let done = report.steps as f64 / options.max_steps as f64;
-        job.progress("relax", done, Picture::Grid(grid));
+        job.progress("relax", done, grid.picture());
         if report.converged {
             break;
         }

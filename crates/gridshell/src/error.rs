@@ -52,4 +52,21 @@ pub enum Error {
         /// All places, in metres.
         places: Vec<[f64; 3]>,
     },
+    /// Stopped by a limit or by who asked for it, before there was a grid.
+    #[error("{}", stopped(phase))]
+    Stopped {
+        /// What was going on: "reading", "preparing the surface".
+        phase: &'static str,
+    },
+    /// More memory was needed than the limit allows.
+    #[error("{0}")]
+    Memory(String),
+}
+
+/// What a stop is told as: once a grid is there, it is only what was asked of it that is not done.
+fn stopped(phase: &str) -> String {
+    match phase {
+        "measuring" | "drawing" | "writing" => format!("stopped {phase}"),
+        _ => format!("stopped {phase}, before there was a grid"),
+    }
 }

@@ -1,6 +1,7 @@
 //! The triangular grid on a surface: topology, and where each node sits.
 
 use crate::error::{Error, Result};
+use crate::job::Picture;
 use crate::mesh::Mesh;
 use crate::surface::{Chain, ChainPoint, Locator, Surface, SurfacePoint};
 use glam::DVec3;
@@ -39,6 +40,11 @@ pub struct Grid {
 }
 
 impl Grid {
+    /// As it is shown while it is worked on.
+    pub fn picture(&self) -> Picture<'_> {
+        Picture::Grid { mesh: &self.mesh, xyz: &self.xyz }
+    }
+
     /// Length of the member between nodes `a` and `b`, metres.
     pub fn length(&self, a: u32, b: u32) -> f64 {
         self.xyz[a as usize].distance(self.xyz[b as usize])

@@ -4,6 +4,7 @@
 //! Works on every model that has a part that is a surface: parts that are none are told with the reason.
 
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::pipeline;
 use crate::recipe::Recipe;
 use crate::run::{PartSummary, SurfaceSummary};
@@ -66,13 +67,13 @@ pub struct Sketch {
 ///
 /// # Errors
 /// [`Error::Surface`] where no part of it is a surface.
-pub fn inspect(model: &Model) -> Result<Inspection> {
-    let Pieces { mut surface, parts, .. } = pieces(model, FINENESS, CHORD_ERROR)?;
+pub fn inspect(model: &Model, job: &Job) -> Result<Inspection> {
+    let Pieces { mut surface, parts, .. } = pieces(model, FINENESS, CHORD_ERROR, job)?;
     let summary = SurfaceSummary::new(model, &surface);
     let suggest =
         |nodes: usize| Suggestion { nodes, edge_length: pipeline::length_for(&surface, nodes) };
     let edge_lengths = SUGGESTED.map(suggest).to_vec();
-    crease(&mut surface)?;
+    crease(&mut surface, job)?;
     let creases = surface.features.iter();
     let creases = creases.map(|c| Crease { length: c.length(), closed: c.is_closed() }).collect();
     Ok(Inspection {
@@ -88,10 +89,10 @@ pub fn inspect(model: &Model) -> Result<Inspection> {
 ///
 /// # Errors
 /// As [`inspect`].
-pub fn sketch(model: &Model) -> Result<Sketch> {
+pub fn sketch(model: &Model, job: &Job) -> Result<Sketch> {
     let Pieces { mut surface, offsets, parts } =
-        pieces(model, SKETCH_FINENESS, SKETCH_CHORD_ERROR)?;
-    crease(&mut surface)?;
+        pieces(model, SKETCH_FINENESS, SKETCH_CHORD_ERROR, job)?;
+    crease(&mut surface, job)?;
     let good: Vec<usize> =
         parts.iter().filter(|p| p.fault.is_none()).map(|p| p.number - 1).collect();
     let of = |t: usize| offsets.partition_point(|o| o.triangles as usize <= t) - 1;
@@ -106,7 +107,7 @@ struct Pieces {
     parts: Vec<PartSummary>,
 }
 
-fn pieces(model: &Model, fineness: f64, chord_error: f64) -> Result<Pieces> {
+fn pieces(model: &Model, fineness: f64, chord_error: f64, job: &Job) -> Result<Pieces> {
     let corner_angle = Recipe::default().corner_angle_deg.to_radians();
     let (mut parts, mut surfaces) = (Vec::new(), Vec::new());
     for (number, faces) in (1..).zip(model.parts()) {
@@ -114,7 +115,8 @@ fn pieces(model: &Model, fineness: f64, chord_error: f64) -> Result<Pieces> {
         let size = part.size();
         let sampling =
             Sampling { max_edge: size * fineness, chord_error: size * chord_error, corner_angle };
-        let surface = part.surface(&sampling);
+        let surface = part.surface(&sampling, job);
+        job.check("inspecting")?;
         parts.push(PartSummary::new(number, &faces, model, surface.as_ref()));
         surfaces.extend(surface);
     }
@@ -131,16 +133,19 @@ fn pieces(model: &Model, fineness: f64, chord_error: f64) -> Result<Pieces> {
 }
 
 /// Find the creases that a grid of a thousand nodes would follow.
-fn crease(surface: &mut Surface) -> Result<()> {
+fn crease(surface: &mut Surface, job: &Job) -> Result<()> {
     let recipe = Recipe::default();
     let edge_length = pipeline::length_for(surface, SUGGESTED[1]);
-    surface.fix(&Fixtures {
-        crease_angle: Some(recipe.feature_angle_deg.to_radians()),
-        guides: &[],
-        anchors: &[],
-        corner_angle: recipe.corner_angle_deg.to_radians(),
-        edge_length,
-    })?;
+    surface.fix(
+        &Fixtures {
+            crease_angle: Some(recipe.feature_angle_deg.to_radians()),
+            guides: &[],
+            anchors: &[],
+            corner_angle: recipe.corner_angle_deg.to_radians(),
+            edge_length,
+        },
+        job,
+    )?;
     Ok(())
 }
 
@@ -152,7 +157,7 @@ mod tests {
 
     #[test]
     fn a_roof_is_told_with_its_loops_and_lengths_that_give_so_many_nodes() {
-        let told = inspect(&builtin::model("great-court").unwrap()).unwrap();
+        let told = inspect(&builtin::model("great-court").unwrap(), &Job::default()).unwrap();
         assert_eq!((told.parts.len(), told.surface.loops), (1, 2));
         assert!((told.parts[0].area / told.surface.area - 1.0).abs() < 1e-12);
         let lengths: Vec<f64> = told.edge_lengths.iter().map(|s| s.edge_length).collect();
@@ -169,9 +174,9 @@ mod tests {
         let points: Vec<DVec3> = points.into_iter().map(DVec3::from).collect();
         let faces = vec![vec![0, 2, 3, 1], vec![4, 6, 7, 5]];
         let model = Model::Mesh(PolygonMesh { points, faces, ..PolygonMesh::default() });
-        let told = inspect(&model).unwrap();
+        let told = inspect(&model, &Job::default()).unwrap();
         assert_eq!((told.parts.len(), told.surface.loops), (2, 2));
-        let Sketch { surface, part } = sketch(&model).unwrap();
+        let Sketch { surface, part } = sketch(&model, &Job::default()).unwrap();
         for (t, part) in part.iter().enumerate() {
             let x = surface.carrier.corners(t as u32).map(|p| p.x).iter().sum::<f64>() / 3.0;
             assert_eq!(*part, usize::from(x > 2.0));

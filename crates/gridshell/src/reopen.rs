@@ -4,6 +4,7 @@ use crate::edit::Editor;
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
 use crate::io::{self, Document, Opening};
+use crate::job::Job;
 use crate::mesh::Mesh;
 use crate::pipeline;
 use crate::recipe::Recipe;
@@ -40,18 +41,20 @@ pub struct Opened {
 /// # Errors
 /// [`Error::Io`], [`Error::Parse`] with line or element, [`Error::Surface`] where the panels are no manifold or the
 /// surface cannot carry them, [`Error::Option`] for a surface or format that is not known.
-pub fn open(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
+pub fn open(path: &Path, surface: Option<&str>, opening: &Opening, job: &Job) -> Result<Opened> {
     match path.extension() {
-        Some(e) if e.eq_ignore_ascii_case("gridshell") => open_document(path, surface, opening),
-        _ if io::reads_mesh(path) => open_mesh(path, surface, opening),
+        Some(e) if e.eq_ignore_ascii_case("gridshell") => {
+            open_document(path, surface, opening, job)
+        }
+        _ if io::reads_mesh(path) => open_mesh(path, surface, opening, job),
         _ => Err(io::unknown(path, &format!("gridshell, {}", io::MESH_FORMATS))),
     }
 }
 
-fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
+fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening, job: &Job) -> Result<Opened> {
     // Where both are given, the unit is the surface's: our grids state their own.
     let of_grid = if surface.is_some() { Opening::default() } else { opening.clone() };
-    let PolygonMesh { name, points, faces, notes, .. } = io::read_mesh_with(path, &of_grid)?;
+    let PolygonMesh { name, points, faces, notes, .. } = io::read_mesh_with(path, &of_grid, job)?;
     let panels = panels(path, &faces)?;
     let edge_length = mean_side(&points, &panels);
     let recipe = Recipe::default();
@@ -61,11 +64,11 @@ fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Op
             (grid, surface, None, None)
         }
         Some(wanted) => {
-            let model = io::open_with(wanted, opening)?;
-            let surface = sample(&model, edge_length, &recipe)?;
+            let model = io::open_with(wanted, opening, job)?;
+            let surface = sample(&model, edge_length, &recipe, job)?;
             let grid = Grid::from_panels(points, &panels, &surface)?;
             let summary = SurfaceSummary::new(&model, &surface);
-            (grid, surface, Some(summary), Some(io::reference(wanted, opening)?))
+            (grid, surface, Some(summary), Some(io::reference(wanted, opening, job)?))
         }
     };
     let supports = Supports::Boundary.nodes(&grid, &surface)?;
@@ -73,16 +76,22 @@ fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Op
     Ok(Opened { document, grid, surface, summary, edge_length, recipe, notes })
 }
 
-fn open_document(path: &Path, surface: Option<&str>, opening: &Opening) -> Result<Opened> {
-    let mut document = io::read_document(path)?;
+fn open_document(
+    path: &Path,
+    surface: Option<&str>,
+    opening: &Opening,
+    job: &Job,
+) -> Result<Opened> {
+    let mut document = io::read_document(path, job)?;
     let mut notes = Vec::new();
     let model = match (surface, &document.surface) {
         (Some(wanted), _) => {
-            document.surface = Some(io::reference(wanted, opening)?);
-            Some(io::open_with(wanted, opening)?)
+            document.surface = Some(io::reference(wanted, opening, job)?);
+            Some(io::open_with(wanted, opening, job)?)
         }
-        (None, Some(reference)) => match io::open_reference(reference, path) {
+        (None, Some(reference)) => match io::open_reference(reference, path, job) {
             Ok(model) => Some(model),
+            Err(e @ (Error::Stopped { .. } | Error::Memory(_))) => return Err(e),
             Err(e) => {
                 notes.push(format!("{e}; the grid is taken for its own surface"));
                 None
@@ -90,7 +99,7 @@ fn open_document(path: &Path, surface: Option<&str>, opening: &Opening) -> Resul
         },
         (None, None) => None,
     };
-    let opened = restore(document, model.as_ref())?;
+    let opened = restore(document, model.as_ref(), job)?;
     Ok(Opened { notes, ..opened })
 }
 
@@ -98,7 +107,7 @@ fn open_document(path: &Path, surface: Option<&str>, opening: &Opening) -> Resul
 ///
 /// # Errors
 /// [`Error::Surface`] where the panels are no manifold or the surface cannot carry them.
-pub fn restore(document: Document, model: Option<&Model>) -> Result<Opened> {
+pub fn restore(document: Document, model: Option<&Model>, job: &Job) -> Result<Opened> {
     let xyz: Vec<DVec3> = document.nodes.iter().map(|&p| p.into()).collect();
     let recipe = document.recipe.clone().unwrap_or_default();
     let edge_length = document.edge_length.unwrap_or_else(|| mean_side(&xyz, &document.panels));
@@ -109,12 +118,12 @@ pub fn restore(document: Document, model: Option<&Model>) -> Result<Opened> {
         return Ok(Opened { document, grid, surface, summary: None, edge_length, recipe, notes });
     };
     let model = match &document.recipe {
-        Some(recipe) => &*pipeline::smoothed(model, recipe)?,
+        Some(recipe) => &*pipeline::smoothed(model, recipe, job)?,
         None => model,
     };
     let surface = match &document.recipe {
-        Some(recipe) => pipeline::surface(model, recipe)?.0,
-        None => sample(model, edge_length, &recipe)?,
+        Some(recipe) => pipeline::surface(model, recipe, job)?.0,
+        None => sample(model, edge_length, &recipe, job)?,
     };
     let summary = Some(SurfaceSummary::new(model, &surface));
     let grid = match at_places(&document, &xyz, &surface, edge_length) {
@@ -211,13 +220,12 @@ pub fn edited(document: &Document, editor: &Editor) -> Document {
 }
 
 /// Sampled as finely as for generating a grid of this edge length.
-fn sample(model: &Model, edge_length: f64, recipe: &Recipe) -> Result<Surface> {
+fn sample(model: &Model, edge_length: f64, recipe: &Recipe, job: &Job) -> Result<Surface> {
     let corner_angle = recipe.corner_angle_deg.to_radians();
-    model.surface(&Sampling {
-        max_edge: edge_length / 2.0,
-        chord_error: edge_length * 2e-3,
-        corner_angle,
-    })
+    model.surface(
+        &Sampling { max_edge: edge_length / 2.0, chord_error: edge_length * 2e-3, corner_angle },
+        job,
+    )
 }
 
 /// The faces as panels, if all are triangles.

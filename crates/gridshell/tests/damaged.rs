@@ -2,6 +2,7 @@
 //! second are no larger and take no longer than others.
 
 use gridshell::io;
+use gridshell::job::Job;
 use gridshell::surface::{Model, Sampling};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -34,8 +35,10 @@ fn every_seed_is_a_surface() {
     let files = files("seeds");
     assert!(files.len() > 10);
     for file in files {
-        let model = io::open(&file.to_string_lossy()).expect("a seed is a valid file");
-        let surface = model.surface(&sampling(&model)).expect("a seed is a valid surface");
+        let model =
+            io::open(&file.to_string_lossy(), &Job::default()).expect("a seed is a valid file");
+        let surface =
+            model.surface(&sampling(&model), &Job::default()).expect("a seed is a valid surface");
         assert!(surface.area > 0.0, "{}", file.display());
     }
 }
@@ -45,11 +48,12 @@ fn no_find_takes_more_triangles_than_a_sane_file_unless_it_is_refused() {
     let files = files("finds");
     assert!(files.len() >= 2);
     for file in files {
-        let model = io::open(&file.to_string_lossy()).expect("its numbers are odd, not wrong");
+        let model = io::open(&file.to_string_lossy(), &Job::default())
+            .expect("its numbers are odd, not wrong");
         let size = model.size();
         assert!(size < 1e9, "{}: {size:e} m large", file.display());
         let fine = Sampling { max_edge: size / 80.0, chord_error: 1e-4 * size, corner_angle: 0.6 };
-        let triangles = match model.surface(&fine) {
+        let triangles = match model.surface(&fine, &Job::default()) {
             Ok(surface) => surface.carrier.triangles.len(),
             Err(gridshell::Error::Surface(_)) => continue,
             Err(e) => panic!("{}: {e}", file.display()),

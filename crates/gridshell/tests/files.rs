@@ -4,9 +4,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-#[cfg(feature = "3dm")]
 use gridshell::io::Choice;
 use gridshell::io::Opening;
+#[cfg(feature = "3dm")]
+use gridshell::job::Job;
 use gridshell::mesh::Mesh;
 use gridshell::surface::{Chain, Model, Sampling, Surface, SurfacePoint};
 use std::path::{Path, PathBuf};
@@ -50,7 +51,7 @@ fn row(folder: &Path, line: &str) -> Row {
 
 /// The surface of a file; None where nobody reads its format.
 fn open(row: &Row) -> Option<Result<(Model, Surface), String>> {
-    let model = match gridshell::io::load(&row.path, &Opening::default()) {
+    let model = match gridshell::io::load(&row.path, &Opening::default(), &Job::default()) {
         Err(gridshell::Error::Option(_)) => return None,
         Err(e) => return Some(Err(e.to_string())),
         Ok(model) => model,
@@ -61,7 +62,7 @@ fn open(row: &Row) -> Option<Result<(Model, Surface), String>> {
 
 fn sampled(model: &Model, max_edge: f64) -> Result<Surface, String> {
     let sampling = Sampling { max_edge, chord_error: 0.004 * max_edge, corner_angle: 0.5 };
-    model.surface(&sampling).map_err(|e| e.to_string())
+    model.surface(&sampling, &Job::default()).map_err(|e| e.to_string())
 }
 
 /// What is not as the table says.
@@ -157,7 +158,7 @@ fn layers_and_objects_of_a_rhino_file_are_chosen_by_name() {
     let load = |layers: &[&str], objects: &[&str]| {
         let [layers, objects] = [layers, objects].map(|n| n.iter().map(|&s| s.into()).collect());
         let choice = Choice { layers, objects };
-        gridshell::io::load(&file, &Opening { choice, ..Opening::default() })
+        gridshell::io::load(&file, &Opening { choice, ..Opening::default() }, &Job::default())
     };
     let kinds = |model: &Model| match model {
         Model::Brep(b) => b.source.objects.iter().filter(|o| o.faces > 0).count(),
@@ -210,7 +211,8 @@ fn what_is_left_out_of_a_rhino_file_is_told_by_name_and_layer() {
         }
         let path = std::env::temp_dir().join(format!("gridshell-{}-left.3dm", std::process::id()));
         std::fs::write(&path, bytes).unwrap();
-        let model = gridshell::io::load(&path, &Opening { choice, ..Opening::default() });
+        let model =
+            gridshell::io::load(&path, &Opening { choice, ..Opening::default() }, &Job::default());
         std::fs::remove_file(&path).unwrap();
         match model {
             Ok(model) => {

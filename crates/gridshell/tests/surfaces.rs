@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use gridshell::job::Job;
 use gridshell::mesh::Mesh;
 use gridshell::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
 use gridshell::surface::nurbs::{NurbsCurve, NurbsSurface};
@@ -200,7 +201,7 @@ fn plane_with_a_round_hole_has_two_loops_and_four_corners() {
     let hole = m.edge(circle(1.0, 0.0), [on_hole; 2]);
     m.face(plane(-4.0, 4.0), vec![outer, vec![back(hole)]], false);
     let s = sampling(0.4);
-    let surface = tessellate(&m.0, &s).unwrap();
+    let surface = tessellate(&m.0, &s, &Job::default()).unwrap();
     check(&surface, &s);
     assert_eq!((euler(&surface), surface.loops.len()), (0, 2));
     assert_eq!(surface.loops[0].corners.len(), 4);
@@ -216,7 +217,7 @@ fn plane_with_a_round_hole_has_two_loops_and_four_corners() {
 fn reversed_face_looks_the_other_way() {
     let mut m = Maker::default();
     m.face(plane(0.0, 1.0), vec![], true);
-    let surface = tessellate(&m.0, &sampling(0.3)).unwrap();
+    let surface = tessellate(&m.0, &sampling(0.3), &Job::default()).unwrap();
     check(&surface, &sampling(0.3));
     assert!(surface.carrier.normals.iter().all(|n| n.z < -0.999));
 }
@@ -230,7 +231,7 @@ fn two_patches_share_their_edge_though_the_file_turns_one_over() {
         let middle = m.line(1, 4);
         m.face(plane(0.0, 1.0), vec![vec![e[0], middle, e[4], e[5]]], false);
         m.face(plane(0.0, 2.0), vec![vec![e[1], e[2], e[3], back(middle)]], second_reversed);
-        let surface = tessellate(&m.0, &sampling(0.2)).unwrap();
+        let surface = tessellate(&m.0, &sampling(0.2), &Job::default()).unwrap();
         check(&surface, &sampling(0.2));
         assert_eq!((euler(&surface), surface.loops.len()), (1, 1));
         assert_eq!(surface.loops[0].corners.len(), 4);
@@ -244,7 +245,7 @@ fn full_sphere_without_loops_closes() {
     let mut m = Maker::default();
     m.face(sphere(2.0), vec![], false);
     let s = sampling(0.4);
-    let surface = tessellate(&m.0, &s).unwrap();
+    let surface = tessellate(&m.0, &s, &Job::default()).unwrap();
     check(&surface, &s);
     assert_eq!((euler(&surface), surface.loops.len()), (2, 0));
     assert!((surface.area / (16.0 * PI) - 1.0).abs() < 1e-5, "{}", surface.area);
@@ -258,7 +259,7 @@ fn full_sphere_without_loops_closes() {
 fn exact_points_agree_across_edges_at_a_pole() {
     let mut m = Maker::default();
     m.face(sphere(2.0), vec![], false);
-    let surface = tessellate(&m.0, &sampling(0.5)).unwrap();
+    let surface = tessellate(&m.0, &sampling(0.5), &Job::default()).unwrap();
     let c = &surface.carrier;
     for t in 0..c.triangles.len() {
         for k in 0..3 {
@@ -279,7 +280,7 @@ fn full_torus_without_loops_closes() {
     let mut m = Maker::default();
     m.face(torus(3.0, 1.0), vec![], false);
     let s = sampling(0.5);
-    let surface = tessellate(&m.0, &s).unwrap();
+    let surface = tessellate(&m.0, &s, &Job::default()).unwrap();
     check(&surface, &s);
     assert_eq!((euler(&surface), surface.loops.len()), (0, 0));
     assert!((surface.area / (12.0 * PI * PI) - 1.0).abs() < 1e-5);
@@ -301,7 +302,7 @@ fn sphere_octant_with_a_pole_has_three_corners() {
         }
         m.face(octant(r), loops, false);
         let s = sampling(0.4);
-        let surface = tessellate(&m.0, &s).unwrap();
+        let surface = tessellate(&m.0, &s, &Job::default()).unwrap();
         check(&surface, &s);
         assert_eq!((euler(&surface), surface.loops.len()), (1, 1));
         assert_eq!(surface.loops[0].corners.len(), 3);
@@ -328,7 +329,7 @@ fn cylinder_closes_at_its_seam_whether_the_file_has_one_or_not() {
             loops = loops.iter().map(|l| turned_round(l)).collect();
         }
         m.face(cylinder(), loops, reversed);
-        let surface = tessellate(&m.0, &s).unwrap();
+        let surface = tessellate(&m.0, &s, &Job::default()).unwrap();
         check(&surface, &s);
         assert_eq!((euler(&surface), surface.loops.len()), (0, 2));
         assert!((surface.area / (4.0 * PI) - 1.0).abs() < 1e-5, "{}", surface.area);
@@ -360,7 +361,7 @@ fn window_across_the_seam_of_a_cylinder_is_cut_out() {
     let window = vec![left, top, back(right), back(bottom)];
     m.face(cylinder(), vec![vec![low], vec![back(high)], window], false);
     let s = sampling(0.3);
-    let surface = tessellate(&m.0, &s).unwrap();
+    let surface = tessellate(&m.0, &s, &Job::default()).unwrap();
     check(&surface, &s);
     assert_eq!((euler(&surface), surface.loops.len()), (-1, 3));
     assert!((surface.area / (3.5 * PI) - 1.0).abs() < 1e-5, "{}", surface.area);
@@ -373,7 +374,7 @@ fn cap_bounded_by_one_circle_reaches_its_pole() {
     let equator = m.edge(circle(2.0, 0.0), [a; 2]);
     m.face(sphere(2.0), vec![vec![equator]], false);
     let s = sampling(0.4);
-    let surface = tessellate(&m.0, &s).unwrap();
+    let surface = tessellate(&m.0, &s, &Job::default()).unwrap();
     check(&surface, &s);
     assert_eq!((euler(&surface), surface.loops.len()), (1, 1));
     assert!((surface.area / (8.0 * PI) - 1.0).abs() < 1e-5);
@@ -385,7 +386,7 @@ fn crossing_boundary_names_the_face() {
     let mut m = Maker::default();
     let bow = m.ring(&[(0., 0.), (1., 1.), (1., 0.), (0., 1.)].map(|(x, y)| DVec3::new(x, y, 0.0)));
     m.face(plane(0.0, 1.0), vec![bow], false);
-    let e = tessellate(&m.0, &sampling(0.2)).err().unwrap().to_string();
+    let e = tessellate(&m.0, &sampling(0.2), &Job::default()).err().unwrap().to_string();
     assert!(e.contains("face 1") && e.contains("crosses"), "{e}");
 }
 
@@ -395,7 +396,7 @@ fn edge_off_its_surface_names_the_face() {
     let square =
         m.ring(&[(0., 0.), (1., 0.), (1., 1.), (0., 1.)].map(|(x, y)| DVec3::new(x, y, 0.5 * x)));
     m.face(plane(0.0, 1.0), vec![square], false);
-    let e = tessellate(&m.0, &sampling(0.2)).err().unwrap().to_string();
+    let e = tessellate(&m.0, &sampling(0.2), &Job::default()).err().unwrap().to_string();
     assert!(e.contains("face 1") && e.contains("off its surface"), "{e}");
 }
 
@@ -410,7 +411,7 @@ fn three_faces_in_one_edge_are_refused() {
         let page = vec![m.line(a, c), m.line(c, d), m.line(d, b), back(spine)];
         m.face(bilinear([DVec3::ZERO, DVec3::Z, out, out + DVec3::Z]), vec![page], false);
     }
-    let e = tessellate(&m.0, &sampling(0.2)).err().unwrap().to_string();
+    let e = tessellate(&m.0, &sampling(0.2), &Job::default()).err().unwrap().to_string();
     assert!(e.contains("share an edge"), "{e}");
 }
 
@@ -419,7 +420,7 @@ fn separate_pieces_are_all_kept() {
     let mut m = Maker::default();
     m.face(plane(0.0, 1.0), vec![], false);
     m.face(plane(3.0, 4.0), vec![], false);
-    let surface = tessellate(&m.0, &sampling(0.25)).unwrap();
+    let surface = tessellate(&m.0, &sampling(0.25), &Job::default()).unwrap();
     check(&surface, &sampling(0.25));
     assert_eq!((euler(&surface), surface.loops.len()), (2, 2));
 }
@@ -440,7 +441,7 @@ fn face_that_bends_in_one_place_only_is_no_damaged_one() {
     let mut m = Maker::default();
     m.face(roof, vec![], false);
     let s = Sampling { max_edge: 1.0, chord_error: 4e-4, corner_angle: 0.5 };
-    let surface = tessellate(&m.0, &s).unwrap();
+    let surface = tessellate(&m.0, &s, &Job::default()).unwrap();
     assert_eq!((euler(&surface), surface.loops.len()), (1, 1));
     // The lantern is a product of two cubic bells: what their slopes add to the area of the roof.
     let bell = |t: f64| match t.abs() {
@@ -475,7 +476,7 @@ fn control_point_far_away_is_refused_by_the_name_of_its_face() {
             let ring = m.ring(&ring.map(|[x, y]| DVec3::new(x, y, 0.0)));
             m.face(whole(points).unwrap(), vec![ring], false);
             m.0.faces[0].label = "#17".into();
-            tessellate(&m.0, &sampling(width / 20.0))
+            tessellate(&m.0, &sampling(width / 20.0), &Job::default())
         };
         assert!(trimmed(points.clone()).is_ok());
         points[12] = wrong;
@@ -489,7 +490,7 @@ fn absurd_sampling_is_refused_at_once() {
     let mut m = Maker::default();
     m.face(plane(0.0, 1000.0), vec![], false);
     for max_edge in [1e-4, 0.1, 0.0, -1.0, f64::NAN] {
-        assert!(tessellate(&m.0, &sampling(max_edge)).is_err(), "{max_edge}");
+        assert!(tessellate(&m.0, &sampling(max_edge), &Job::default()).is_err(), "{max_edge}");
     }
 }
 
@@ -509,7 +510,7 @@ fn height_function_bounded_by_a_loop_is_a_face() {
     let square = (0..4).map(|i| m.curve(side(i), [0.0, 1.0], [v[i], v[(i + 1) % 4]])).collect();
     m.0.faces.push(BrepFace { shape, loops: vec![square], reversed: false, label: String::new() });
     let s = sampling(0.5);
-    let surface = tessellate(&m.0, &s).unwrap();
+    let surface = tessellate(&m.0, &s, &Job::default()).unwrap();
     check(&surface, &s);
     assert_eq!((euler(&surface), surface.loops.len(), surface.loops[0].corners.len()), (1, 1, 4));
 }

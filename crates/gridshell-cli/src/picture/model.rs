@@ -138,10 +138,11 @@ mod tests {
     use super::super::{png, svg};
     use super::*;
     use gridshell::inspect::sketch;
+    use gridshell::job::Job;
     use gridshell::surface::builtin;
 
     fn dome() -> Drawing {
-        plan_and_perspective(&sketch(&builtin::model("dome").unwrap()).unwrap())
+        plan_and_perspective(&sketch(&builtin::model("dome").unwrap(), &Job::default()).unwrap())
     }
 
     #[test]

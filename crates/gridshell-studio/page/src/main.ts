@@ -340,14 +340,14 @@ function onProgress(event: Progress): void {
   if (!going || going.run !== event.run) announced = event.run;
   going = event;
   busy(true);
-  const at = STAGES.indexOf(event.stage);
+  const at = event.stage === "measure" ? STAGES.length : STAGES.indexOf(event.stage);
   const bars = STAGES.map((name, k) => {
     const share = k < at ? 1 : k === at ? event.fraction : 0;
     const bar = el("i", { style: `width:${(100 * share).toFixed(1)}%` });
     return el("div", { class: k === at ? "bar now" : "bar" }, [el("span", {}, [name]), el("div", {}, [bar])]);
   });
   stages.replaceChildren(...bars);
-  const overall = at < 0 ? 0 : (100 * (at + event.fraction)) / STAGES.length;
+  const overall = at < 0 ? 0 : Math.min(100, (100 * (at + event.fraction)) / STAGES.length);
   stages.setAttribute("aria-valuenow", overall.toFixed(0));
   status.textContent = `${event.draft ? "draft" : "grid"}: ${event.stage}, ${event.seconds.toFixed(1)} s`;
 }

@@ -461,7 +461,7 @@ run: number,
  */
 draft: boolean, 
 /**
- * `prepare`, `pack`, `triangulate`, `regularize` or `relax`.
+ * `prepare`, `surface`, `fix`, `flatten`, `pack`, `triangulate`, `regularize`, `relax` or `measure`.
  */
 stage: string, 
 /**

@@ -32,11 +32,11 @@ impl Desk {
         let one = |event| Ok(vec![Outgoing::Event(event)]);
         match request {
             Request::Open { name } => {
-                self.put(&Arc::new(Opened::built_in(&name)?));
+                self.put(&Arc::new(Opened::built_in(&name, &self.opening())?));
                 Ok(Vec::new())
             }
             Request::Choose { layers, objects } => {
-                let opened = self.opened()?.chosen(Choice { layers, objects })?;
+                let opened = self.opened()?.chosen(Choice { layers, objects }, &self.opening())?;
                 self.put(&Arc::new(opened));
                 Ok(Vec::new())
             }

@@ -7,6 +7,7 @@ use crate::session::{Ended, Session};
 use axum::body::Bytes;
 use gridshell::error::{Error, Result};
 use gridshell::io::{self, Document, Opening, Reference};
+use gridshell::job::Job;
 use gridshell::reopen;
 use std::path::Path;
 use std::sync::Arc;
@@ -18,10 +19,11 @@ impl Desk {
     /// What [`Opened::named`] and [`io::read_document`] say.
     pub fn open(&self, name_or_path: &str) -> Result<()> {
         let path = Path::new(name_or_path);
+        let job = &self.opening();
         if is_grid(path) {
-            return self.put_grid(io::read_document(path)?, Some(path)).map(|_| ());
+            return self.put_grid(io::read_document(path, job)?, Some(path)).map(|_| ());
         }
-        self.put(&Arc::new(Opened::named(name_or_path, &Opening::default())?));
+        self.put(&Arc::new(Opened::named(name_or_path, &Opening::default(), job)?));
         Ok(())
     }
 
@@ -32,10 +34,11 @@ impl Desk {
     /// As [`Desk::open`].
     pub fn open_sent(&self, name: &str, file: &Bytes) -> Result<()> {
         if is_grid(Path::new(name)) {
-            let document = opened::in_folder(name, file, io::read_document)?;
+            let document =
+                opened::in_folder(name, file, |path| io::read_document(path, &self.job()))?;
             return self.put_grid(document, None).map(|_| ());
         }
-        self.put(&Arc::new(Opened::sent(name, file, &Opening::default())?));
+        self.put(&Arc::new(Opened::sent(name, file, &Opening::default(), &self.opening())?));
         Ok(())
     }
 
@@ -64,9 +67,10 @@ impl Desk {
     /// Put a grid on the desk with the surface that it lies on; `path` says where its file is, if it may say what
     /// else is read. Gives its number.
     fn put_grid(&self, document: Document, path: Option<&Path>) -> Result<u32> {
-        let (opened, notes) = self.surface_of(&document, path)?;
+        let job = &self.opening();
+        let (opened, notes) = self.surface_of(&document, path, job)?;
         let model = opened.reference.is_some().then_some(&opened.model);
-        let read = reopen::restore(document, model)?;
+        let read = reopen::restore(document, model, job)?;
         let read = reopen::Opened { notes, ..read };
         self.put(&opened);
         let number = self.number();
@@ -85,9 +89,10 @@ impl Desk {
         &self,
         document: &Document,
         path: Option<&Path>,
+        job: &Job,
     ) -> Result<(Arc<Opened>, Vec<String>)> {
         let Some(reference) = &document.surface else {
-            return Ok((Arc::new(Opened::alone(document)?), Vec::new()));
+            return Ok((Arc::new(Opened::alone(document, job)?), Vec::new()));
         };
         let known = {
             let state = self.state();
@@ -97,17 +102,18 @@ impl Desk {
         };
         let found = match (known, reference, path) {
             (Some(opened), ..) => return Ok((opened, Vec::new())),
-            (None, Reference::Builtin(name), _) => Opened::built_in(name),
-            (None, Reference::File { .. }, Some(path)) => Opened::referred(reference, path),
+            (None, Reference::Builtin(name), _) => Opened::built_in(name, job),
+            (None, Reference::File { .. }, Some(path)) => Opened::referred(reference, path, job),
             (None, Reference::File { path: to, .. }, None) => Err(Error::Option(format!(
                 "the grid was laid on `{to}`: open that file first, or drop both together"
             ))),
         };
         match found {
             Ok(opened) => Ok((Arc::new(opened), Vec::new())),
+            Err(e @ (Error::Stopped { .. } | Error::Memory(_))) => Err(e),
             Err(e) => {
                 let note = format!("{e}; until then the grid is taken for its own surface");
-                Ok((Arc::new(Opened::alone(document)?), vec![note]))
+                Ok((Arc::new(Opened::alone(document, job)?), vec![note]))
             }
         }
     }

@@ -38,6 +38,8 @@ struct State {
     runs: Vec<Arc<Laid>>,
     numbers: u32,
     going: Option<Going>,
+    /// What is being opened, or was last.
+    opening: Option<Job>,
     /// Another work that goes on: an edit, say.
     work: Option<Job>,
     /// The recipe of the grid that was opened last, and its number: what the form begins with.
@@ -51,16 +53,18 @@ struct State {
 /// The desk.
 pub struct Desk {
     report: Option<Report>,
+    memory_limit: Option<u64>,
     state: Mutex<State>,
     events: broadcast::Sender<Outgoing>,
     live: watch::Sender<Option<Bytes>>,
 }
 
 impl Desk {
-    /// An empty desk; `report` makes pages on its grids.
-    pub fn new(report: Option<Report>) -> Desk {
+    /// An empty desk; `report` makes pages on its grids, `memory_limit` is in bytes.
+    pub fn new(report: Option<Report>, memory_limit: Option<u64>) -> Desk {
         Desk {
             report,
+            memory_limit,
             state: Mutex::default(),
             events: broadcast::channel(BACKLOG).0,
             live: watch::channel(None).0,
@@ -112,12 +116,12 @@ impl Desk {
     pub fn cancel(&self) {
         let state = self.state();
         let going = state.going.iter().map(|going| &going.job);
-        going.chain(&state.work).for_each(Job::cancel);
+        going.chain(&state.work).chain(&state.opening).for_each(Job::cancel);
     }
 
     /// Begin something that may take a while: told of when it does, until it is dropped.
     fn begin(self: &Arc<Self>, run: u32, what: &str) -> Result<Work> {
-        let job = Job::default();
+        let job = self.job();
         {
             let mut state = self.state();
             if state.work.is_some() {
@@ -133,6 +137,21 @@ impl Desk {
         });
         watched.progress("begin", 0.0, Picture::None);
         Ok(Work { desk: Arc::clone(self), job: watched })
+    }
+
+    /// A job for work on the desk, within the limits.
+    pub(crate) fn job(&self) -> Job {
+        match self.memory_limit {
+            Some(limit) => Job::default().with_memory_limit(limit),
+            None => Job::default(),
+        }
+    }
+
+    /// A job for opening something.
+    fn opening(&self) -> Job {
+        let job = self.job();
+        self.state().opening = Some(job.clone());
+        job
     }
 
     /// The next grid's number.

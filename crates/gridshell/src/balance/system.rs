@@ -7,6 +7,7 @@
 
 use super::{DAMPING, Options, arc_over_chord, directions};
 use crate::grid::Grid;
+use crate::job::Job;
 use crate::math::chunks::{collect, sum, sweep};
 use crate::math::conjugate::conjugate_gradients;
 use crate::mesh::Mesh;
@@ -125,7 +126,7 @@ impl System {
     }
 
     /// Linearise at the grid's positions and solve for the move of every node; gives the energy there too.
-    pub fn step(&mut self, surface: &Surface, grid: &Grid) -> (Vec<DVec3>, f64) {
+    pub fn step(&mut self, surface: &Surface, grid: &Grid, job: &Job) -> (Vec<DVec3>, f64) {
         let mut members = self.members(surface, grid);
         self.short = SHORT * self.total(|i, j| members.chord(i, j)) / self.weights;
         members.short = self.short;
@@ -133,7 +134,7 @@ impl System {
         self.frames = collect(grid.xyz.len(), |i| directions(surface, grid, i));
         let right = self.assemble(&members);
         let energy = self.energy_of(&members);
-        let x = self.solve(right);
+        let x = self.solve(right, job);
         let step = collect(x.len(), |i| self.frames[i][0] * x[i].x + self.frames[i][1] * x[i].y);
         (step, energy)
     }
@@ -272,7 +273,7 @@ impl System {
         });
     }
 
-    fn solve(&self, right: Vec<DVec2>) -> Vec<DVec2> {
+    fn solve(&self, right: Vec<DVec2>, job: &Job) -> Vec<DVec2> {
         let mut x = vec![DVec2::ZERO; right.len()];
         let precondition = |r: &[DVec2], z: &mut [DVec2]| {
             sweep(z, |first, piece| {
@@ -283,7 +284,8 @@ impl System {
         };
         let enough = |first: f64| first * self.accuracy * self.accuracy;
         let apply = |v: &[DVec2], y: &mut [DVec2]| self.apply(v, y);
-        conjugate_gradients(&mut x, right, apply, precondition, enough, SOLVER_STEPS);
+        let go_on = || !job.stopped();
+        conjugate_gradients(&mut x, right, apply, precondition, enough, SOLVER_STEPS, go_on);
         x
     }
 }
@@ -381,7 +383,8 @@ mod tests {
     /// A lattice on the flat hexagon, its inner nodes pushed about, with lengths that are to vary.
     fn ruffled() -> (Surface, Grid) {
         let sampling = Sampling { max_edge: 0.5, chord_error: 2e-3, corner_angle: 0.5 };
-        let mut surface = builtin::model("hexagon").unwrap().surface(&sampling).unwrap();
+        let mut surface =
+            builtin::model("hexagon").unwrap().surface(&sampling, &Job::default()).unwrap();
         surface.scale = surface.carrier.points.iter().map(|p| 1.0 + 0.08 * p.x).collect();
         let points = surface.carrier.points.clone();
         let mut grid = Grid::from_panels(points, &surface.carrier.triangles, &surface).unwrap();
@@ -400,7 +403,7 @@ mod tests {
         let options =
             Options { straightness: 0.3, border: 2.0, settled: 0.0, max_steps: 1, accuracy: 1e-3 };
         let mut system = System::new(&surface, &grid, &options);
-        system.step(&surface, &grid);
+        system.step(&surface, &grid, &Job::default());
         (surface, grid, system)
     }
 

@@ -18,7 +18,7 @@ pub(super) fn add(editor: &Editor, points: &[[f64; 3]]) -> Result<Outcome, Refus
         return Err(Refusal::new("that is no line", "give two points or more on the surface"));
     }
     let corner_angle = editor.recipe.corner_angle_deg.to_radians();
-    let surface = editor.surface.with_guide(&guide, corner_angle, length);
+    let surface = editor.surface.with_guide(&guide, corner_angle, length, &editor.job);
     let surface = surface.map_err(|e| {
         Refusal::new(e.to_string(), "give a line on the surface, longer than a member")
     })?;

@@ -3,6 +3,7 @@
 use super::{Edit, Editor};
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
+use crate::job::Job;
 use crate::recipe::Recipe;
 use serde::{Deserialize, Serialize};
 
@@ -92,8 +93,8 @@ impl Editor {
     ///
     /// # Errors
     /// [`Error::Surface`] where the log begins from another grid than this editor, or naming the entry that does not
-    /// fit.
-    pub fn replay(&mut self, log: &Log) -> Result<()> {
+    /// fit; [`Error::Stopped`] where the job was stopped.
+    pub fn replay(&mut self, log: &Log, job: &Job) -> Result<()> {
         if log.start.as_ref().is_some_and(|start| *start != self.start) {
             return Err(Error::Surface(format!(
                 "the log was made on another grid (on {:?}, fingerprint {}; this one on {:?}, {}): open the grid that it \
@@ -106,11 +107,14 @@ impl Editor {
         }
         let before = self.done.len();
         for (k, edit) in log.edits.iter().enumerate() {
-            if let Err(refusal) = self.apply(edit.clone()) {
+            if let Err(refusal) = self.apply_with(edit.clone(), job) {
                 while self.done.len() > before {
                     self.undo();
                 }
                 self.undone.clear();
+                if job.stopped() {
+                    return Err(Error::Stopped { phase: "editing" });
+                }
                 return Err(Error::Surface(format!(
                     "entry {} of the log's {} ({edit}) does not fit the grid: {refusal}",
                     k + 1,

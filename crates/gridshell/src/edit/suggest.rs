@@ -2,6 +2,7 @@
 
 use super::workbench::Workbench;
 use super::{Edit, Editor, Effect};
+use crate::job::Job;
 use crate::merit::Sums;
 use crate::stages::regularize::{Operation, estimate};
 use rayon::prelude::*;
@@ -15,14 +16,17 @@ const LEAST_GAIN: f64 = 0.005;
 
 impl Editor {
     /// The `n` edits of a single member near irregular nodes that gain most (see [`Effect::gain`]), best first; fewer
-    /// where fewer gain as much as 0.005.
-    pub fn suggest(&self, n: usize) -> Vec<(Edit, Effect)> {
+    /// where fewer gain as much as 0.005, or the job was stopped.
+    pub fn suggest(&self, n: usize, job: &Job) -> Vec<(Edit, Effect)> {
         let edits = if n > 0 { self.hopeful() } else { Vec::new() };
         let mut found: Vec<(Edit, Effect)> = edits
             .into_par_iter()
             .map_init(
                 || Workbench::new(self),
                 |bench, edit| {
+                    if job.stopped() {
+                        return None;
+                    }
                     let effect = bench.carry_out(&edit).ok();
                     bench.take_back();
                     effect.filter(|e| e.gain() >= LEAST_GAIN).map(|e| (edit, e))

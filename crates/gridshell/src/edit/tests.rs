@@ -11,8 +11,10 @@ use std::sync::LazyLock;
 fn start(name: &str, length: f64, guided: bool) -> (Arc<Surface>, Grid, Recipe) {
     let sampling =
         Sampling { max_edge: 0.5 * length, chord_error: 2e-3 * length, corner_angle: 0.5 };
-    let mut surface =
-        builtin::model(name).expect("built in").surface(&sampling).expect("a surface");
+    let mut surface = builtin::model(name)
+        .expect("built in")
+        .surface(&sampling, &Job::default())
+        .expect("a surface");
     if guided {
         let guide = vec![DVec3::new(-2.0, -1.0, 0.0), DVec3::new(2.0, 1.5, 0.0)];
         let anchors = [DVec3::new(0.0, -2.0, 0.0)];
@@ -23,7 +25,7 @@ fn start(name: &str, length: f64, guided: bool) -> (Arc<Surface>, Grid, Recipe) 
             corner_angle: 0.5,
             edge_length: length,
         };
-        surface.fix(&wanted).expect("guide and anchor are on the surface");
+        surface.fix(&wanted, &Job::default()).expect("guide and anchor are on the surface");
     }
     let counts = |pieces: &[pack::boundary::Piece]| -> Vec<usize> {
         pieces.iter().map(|p| pack::boundary::member_count(p, length)).collect()
@@ -37,10 +39,12 @@ fn start(name: &str, length: f64, guided: bool) -> (Arc<Surface>, Grid, Recipe) 
     let mut rng = fastrand::Rng::with_seed(3);
     let count = pack::interior_count(&surface, bubbles.len(), length, 1.0);
     let held = bubbles.xyz(&surface);
-    bubbles.interior = pack::scatter(&surface, count, &held, 0.6 * length, &mut rng);
+    bubbles.interior =
+        pack::scatter(&surface, count, &held, 0.6 * length, &mut rng, &Job::default());
     let recipe = Recipe { edge_length: Some(length), ..Recipe::default() };
     pack::settle(&surface, &mut bubbles, length, &recipe.pack, &crate::job::Job::default());
-    let mut grid = triangulate::triangulate(&surface, &bubbles).expect("a manifold").0;
+    let mut grid =
+        triangulate::triangulate(&surface, &bubbles, &Job::default()).expect("a manifold").0;
     let mut few = recipe.clone();
     few.regularize.method = crate::recipe::RegularizeMethod::Paper;
     few.regularize.max_rounds = 1;
@@ -150,7 +154,7 @@ proptest! {
         let read = Log::from_json(&log.to_json()).expect("what was written");
         prop_assert_eq!(&read, &log);
         let mut again = self::editor(which);
-        again.replay(&read).expect("it fits");
+        again.replay(&read, &Job::default()).expect("it fits");
         prop_assert_eq!(&bits(&again.grid), &after);
     }
 }
@@ -240,7 +244,7 @@ fn a_log_that_does_not_fit_names_its_entry_and_changes_nothing() {
         r#"{{"schema":"gridshell.edits/1","edits":[{{"op":"split","nodes":[{a},{b}]}},{{"op":"pin","node":9999}}]}}"#
     );
     let log = Log::from_json(&text).expect("a log");
-    let error = editor.replay(&log).expect_err("no such node").to_string();
+    let error = editor.replay(&log, &Job::default()).expect_err("no such node").to_string();
     assert!(
         error.starts_with(
             "entry 2 of the log's 2 (pin 9999) does not fit the grid: there is no node 9999"
@@ -251,7 +255,7 @@ fn a_log_that_does_not_fit_names_its_entry_and_changes_nothing() {
     assert_eq!((editor.history().len(), editor.undone().len()), (0, 0));
 
     let elsewhere = self::editor(0).log();
-    let error = editor.replay(&elsewhere).expect_err("another grid").to_string();
+    let error = editor.replay(&elsewhere, &Job::default()).expect_err("another grid").to_string();
     assert!(error.starts_with("the log was made on another grid"), "{error}");
 }
 
@@ -273,7 +277,7 @@ fn logs_that_are_none_are_refused() {
 #[test]
 fn suggestions_do_what_they_say() {
     let mut editor = editor(1);
-    let suggested = editor.suggest(5);
+    let suggested = editor.suggest(5, &Job::default());
     assert!(!suggested.is_empty(), "a rough grid can be bettered");
     assert!(suggested.windows(2).all(|w| w[0].1.gain() >= w[1].1.gain()));
     let (edit, effect) = suggested[0].clone();
@@ -322,7 +326,7 @@ fn a_guide_is_followed_at_once_and_until_it_is_removed() {
     let (after, log) = (bits(&editor.grid), editor.log());
     while editor.undo().is_some() {}
     assert_eq!(bits(&editor.grid), before);
-    editor.replay(&log).expect("it fits");
+    editor.replay(&log, &Job::default()).expect("it fits");
     assert_eq!(bits(&editor.grid), after);
 }
 

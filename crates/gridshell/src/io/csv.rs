@@ -2,6 +2,8 @@
 //! of. Nodes, members and panels are numbered as in every other file, from 0.
 
 use super::GridFile;
+use crate::io::WRITING;
+use crate::job::Job;
 use crate::schedule::{Figures, Schedule, Spread};
 use std::fmt::Write;
 
@@ -9,12 +11,12 @@ use std::fmt::Write;
 pub(super) const TABLES: [&str; 4] = ["nodes", "members", "panels", "summary"];
 
 /// The tables: name and text.
-pub(super) fn tables(grid: &GridFile) -> [(&'static str, String); 4] {
+pub(super) fn tables(grid: &GridFile, job: &Job) -> [(&'static str, String); 4] {
     let [a, b, c, d] = TABLES;
-    [(a, nodes(grid)), (b, members(grid)), (c, panels(grid)), (d, summary(grid))]
+    [(a, nodes(grid, job)), (b, members(grid, job)), (c, panels(grid, job)), (d, summary(grid))]
 }
 
-fn nodes(grid: &GridFile) -> String {
+fn nodes(grid: &GridFile, job: &Job) -> String {
     let nodes = &grid.schedule.nodes;
     let supported = grid.supported();
     let mut out = String::from(
@@ -22,7 +24,7 @@ fn nodes(grid: &GridFile) -> String {
          least angle [deg],greatest angle [deg],bend [deg],bend by curvature [deg],angle defect [deg],\
          off surface [m],group\n",
     );
-    for (v, p) in nodes.xyz.iter().enumerate() {
+    for (v, p) in nodes.xyz.iter().enumerate().take_while(|_| !job.is_over(WRITING)) {
         let n = nodes.normal[v];
         let [least, greatest] = nodes.angles_deg[v];
         let (degree, adjusted) = (nodes.degree[v], nodes.adjusted_degree[v]);
@@ -36,13 +38,13 @@ fn nodes(grid: &GridFile) -> String {
     out
 }
 
-fn members(grid: &GridFile) -> String {
+fn members(grid: &GridFile, job: &Job) -> String {
     let members = &grid.schedule.members;
     let mut out = String::from(
         "member,node 1,node 2,length [m],normal x,normal y,normal z,twist [deg],fold [deg],bend [deg],boundary,\
          feature,group\n",
     );
-    for (k, [a, b]) in members.ends.iter().enumerate() {
+    for (k, [a, b]) in members.ends.iter().enumerate().take_while(|_| !job.is_over(WRITING)) {
         let n = members.normal[k];
         let (fold, bend) = (maybe(members.fold_deg[k]), maybe(members.bend_deg[k]));
         let (boundary, feature) = (u8::from(members.boundary[k]), u8::from(members.feature[k]));
@@ -53,13 +55,13 @@ fn members(grid: &GridFile) -> String {
     out
 }
 
-fn panels(grid: &GridFile) -> String {
+fn panels(grid: &GridFile, job: &Job) -> String {
     let Schedule { panels, members, .. } = grid.schedule;
     let mut out = String::from(
         "panel,node 1,node 2,node 3,member 1-2,member 2-3,member 3-1,area [m2],shape q,angle 1 [deg],angle 2 [deg],\
          angle 3 [deg],normal x,normal y,normal z,group\n",
     );
-    for (k, t) in panels.nodes.iter().enumerate() {
+    for (k, t) in panels.nodes.iter().enumerate().take_while(|_| !job.is_over(WRITING)) {
         let [a, b, c] = *t;
         let side = |a, b| members.between(a, b).expect("the sides of panels are members");
         let (n, angles) = (panels.normal[k], panels.angles_deg[k]);

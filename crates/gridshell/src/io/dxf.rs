@@ -2,6 +2,8 @@
 //! polylines, each on a layer of its own; metres. After Autodesk's DXF reference.
 
 use super::GridFile;
+use crate::io::WRITING;
+use crate::job::Job;
 use crate::schedule::{Panels, Schedule};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -27,21 +29,23 @@ const GROUPS: u64 = 0x23;
 const FIRST: u64 = 0x100;
 
 /// The text as it grows: pairs of a group code and a value.
-struct Writer {
+struct Writer<'a> {
+    /// Once it is over nothing more is written; the caller is to check.
+    job: &'a Job,
     out: String,
     handle: u64,
 }
 
 /// The file's bytes.
-pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
+pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     // The body first: the head tells the next free handle.
-    let mut body = Writer { out: String::new(), handle: FIRST };
+    let mut body = Writer { job, out: String::new(), handle: FIRST };
     body.tables();
     body.blocks();
     body.entities(grid);
     body.objects();
     body.pair(0, "EOF");
-    let mut head = Writer { out: String::new(), handle: 0 };
+    let mut head = Writer { job, out: String::new(), handle: 0 };
     head.pair(999, grid.headline());
     head.begin("HEADER");
     head.pair(9, "$ACADVER");
@@ -60,9 +64,11 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
     head.out.into_bytes()
 }
 
-impl Writer {
+impl Writer<'_> {
     fn pair(&mut self, code: u16, value: impl Display) {
-        let _ = writeln!(self.out, "{code:>3}\n{value}");
+        if !self.job.is_over(WRITING) {
+            let _ = writeln!(self.out, "{code:>3}\n{value}");
+        }
     }
 
     fn begin(&mut self, section: &str) {

@@ -1,6 +1,8 @@
 //! Whole files, in and out: a limit on what is read, and no half-written file left behind.
 
+use super::READING;
 use crate::error::{Error, Result};
+use crate::job::{Job, Picture};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -11,7 +13,9 @@ const MAX_BYTES: u64 = 1 << 30;
 ///
 /// # Errors
 /// [`Error::Io`] from the system, [`Error::Parse`] for a file of more than a gigabyte.
-pub(super) fn read(path: &Path) -> Result<Vec<u8>> {
+pub(super) fn read(path: &Path, job: &Job) -> Result<Vec<u8>> {
+    job.check(READING)?;
+    job.progress("read", 0.0, Picture::None);
     let io = |source| Error::Io { path: path.to_owned(), source };
     let size = fs::metadata(path).map_err(io)?.len();
     if size > MAX_BYTES {
@@ -23,6 +27,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>> {
                     .into(),
         });
     }
+    job.reserve(2.0 * size as f64, &format!("reading {}", path.display()))?;
     fs::read(path).map_err(io)
 }
 

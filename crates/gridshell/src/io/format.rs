@@ -5,6 +5,8 @@ use super::{
     stl, vtu,
 };
 use crate::error::{Error, Result};
+use crate::io::WRITING;
+use crate::job::{Job, Picture};
 use std::path::{Path, PathBuf};
 
 /// Ends of paths that can be written.
@@ -73,23 +75,27 @@ impl Format {
 /// # Errors
 /// [`Error::Io`], or [`Error::Option`] listing the known ends for an unknown one, or where the format cannot hold so
 /// large a grid.
-pub fn write(path: &Path, grid: &GridFile) -> Result<Vec<PathBuf>> {
+pub fn write(path: &Path, grid: &GridFile, job: &Job) -> Result<Vec<PathBuf>> {
+    job.check(WRITING)?;
+    job.progress("write", 0.0, Picture::None);
     let bytes = match Format::of(path)? {
-        Format::Csv => return write_tables(path, grid),
-        Format::Native => native::encode(grid.document),
-        Format::Obj => obj::encode(grid),
-        Format::Ply => ply::encode(grid),
-        Format::Stl => stl::encode(grid),
-        Format::Off => off::encode(grid),
-        Format::Gltf => gltf::write::encode(grid),
-        Format::Dxf => dxf::encode(grid),
-        Format::Compas => compas::write::encode(grid),
-        Format::Vtu => vtu::encode(grid),
-        Format::Saf => saf::encode(grid)
+        Format::Csv => return write_tables(path, grid, job),
+        Format::Native => native::encode(grid.document, job),
+        Format::Obj => obj::encode(grid, job),
+        Format::Ply => ply::encode(grid, job),
+        Format::Stl => stl::encode(grid, job),
+        Format::Off => off::encode(grid, job),
+        Format::Gltf => gltf::write::encode(grid, job),
+        Format::Dxf => dxf::encode(grid, job),
+        Format::Compas => compas::write::encode(grid, job),
+        Format::Vtu => vtu::encode(grid, job),
+        Format::Saf => saf::encode(grid, job)
             .map_err(|message| Error::Option(format!("{}: {message}", path.display())))?,
-        Format::Ifc => ifc::encode(grid),
-        Format::OpenSees => opensees::encode(grid),
+        Format::Ifc => ifc::encode(grid, job),
+        Format::OpenSees => opensees::encode(grid, job),
     };
+    // What was broken off must not stand for the grid.
+    job.check(WRITING)?;
     file::replace(path, &bytes)?;
     Ok(vec![path.to_owned()])
 }
@@ -100,9 +106,10 @@ fn table(path: &Path, name: &str) -> PathBuf {
 }
 
 /// All tables, or none.
-fn write_tables(path: &Path, grid: &GridFile) -> Result<Vec<PathBuf>> {
-    let tables = csv::tables(grid);
+fn write_tables(path: &Path, grid: &GridFile, job: &Job) -> Result<Vec<PathBuf>> {
+    let tables = csv::tables(grid, job);
     let files = tables.each_ref().map(|(name, text)| (table(path, name), text.as_bytes()));
+    job.check(WRITING)?;
     file::replace_all(&files)?;
     Ok(files.map(|(path, _)| path).to_vec())
 }

@@ -8,6 +8,7 @@
 use super::scan::{self, Line};
 use super::{extension, file, text};
 use crate::error::Result;
+use crate::job::Job;
 use glam::DVec3;
 use std::path::Path;
 
@@ -18,10 +19,11 @@ const MOST_POINTS: usize = 100_000;
 ///
 /// # Errors
 /// [`Error::Parse`](crate::Error::Parse) with the line; a file without a polyline is one, too.
-pub fn read_guides(path: &Path) -> Result<Vec<Vec<DVec3>>> {
-    let bytes = file::read(path)?;
+pub fn read_guides(path: &Path, job: &Job) -> Result<Vec<Vec<DVec3>>> {
+    let bytes = file::read(path, job)?;
     let text = text::decode(&bytes);
-    let guides = if extension(path) == "obj" { obj(path, &text)?.1 } else { plain(path, &text)? };
+    let guides =
+        if extension(path) == "obj" { obj(path, &text, job)?.1 } else { plain(path, &text, job)? };
     if guides.is_empty() {
         return Err(scan::error(path, "whole file", "there is no polyline in it"));
     }
@@ -32,13 +34,13 @@ pub fn read_guides(path: &Path) -> Result<Vec<Vec<DVec3>>> {
 ///
 /// # Errors
 /// As [`read_guides`].
-pub fn read_anchors(path: &Path) -> Result<Vec<DVec3>> {
-    let bytes = file::read(path)?;
+pub fn read_anchors(path: &Path, job: &Job) -> Result<Vec<DVec3>> {
+    let bytes = file::read(path, job)?;
     let text = text::decode(&bytes);
     let anchors: Vec<DVec3> = if extension(path) == "obj" {
-        obj(path, &text)?.0
+        obj(path, &text, job)?.0
     } else {
-        points(path, &text)?.into_iter().map(|p| p.1).collect()
+        points(path, &text, job)?.into_iter().map(|p| p.1).collect()
     };
     if anchors.is_empty() {
         return Err(scan::error(path, "whole file", "there is no point in it"));
@@ -47,9 +49,9 @@ pub fn read_anchors(path: &Path) -> Result<Vec<DVec3>> {
 }
 
 /// Points and polylines of an OBJ file.
-fn obj(path: &Path, text: &str) -> Result<(Vec<DVec3>, Vec<Vec<DVec3>>)> {
+fn obj(path: &Path, text: &str, job: &Job) -> Result<(Vec<DVec3>, Vec<Vec<DVec3>>)> {
     let (mut points, mut guides) = (Vec::new(), Vec::new());
-    for line in scan::lines(path, text) {
+    for line in scan::lines(path, text, job) {
         let mut words = line.text.split_ascii_whitespace();
         match words.next() {
             Some("v") => {
@@ -73,8 +75,8 @@ fn obj(path: &Path, text: &str) -> Result<(Vec<DVec3>, Vec<Vec<DVec3>>)> {
 }
 
 /// Polylines of a plain text: runs of points on lines that follow one another.
-fn plain(path: &Path, text: &str) -> Result<Vec<Vec<DVec3>>> {
-    let points = points(path, text)?;
+fn plain(path: &Path, text: &str, job: &Job) -> Result<Vec<Vec<DVec3>>> {
+    let points = points(path, text, job)?;
     let mut guides = Vec::new();
     for run in points.chunk_by(|a, b| b.0.number_in_file() == a.0.number_in_file() + 1) {
         if run.len() < 2 {
@@ -87,9 +89,9 @@ fn plain(path: &Path, text: &str) -> Result<Vec<Vec<DVec3>>> {
     Ok(guides)
 }
 
-fn points<'a>(path: &'a Path, text: &'a str) -> Result<Vec<(Line<'a>, DVec3)>> {
+fn points<'a>(path: &'a Path, text: &'a str, job: &'a Job) -> Result<Vec<(Line<'a>, DVec3)>> {
     let mut points = Vec::new();
-    for line in scan::lines(path, text) {
+    for line in scan::lines(path, text, job) {
         let mut words = line.text.split([',', ';', ' ', '\t']).filter(|w| !w.is_empty());
         let is_heading = points.is_empty() && words.clone().all(|w| w.parse::<f64>().is_err());
         if is_heading && line.number_in_file() == 1 {
@@ -124,7 +126,7 @@ mod tests {
         let path = std::env::temp_dir().join(format!("gridshell-{}-{}-{name}", own.0, own.1));
         std::fs::write(&path, text).unwrap();
         let said = |e: crate::Error| e.to_string().replace(&path.display().to_string(), name);
-        let read = read_guides(&path).map_err(said);
+        let read = read_guides(&path, &Job::default()).map_err(said);
         std::fs::remove_file(&path).unwrap();
         read
     }

@@ -53,10 +53,15 @@ pub use unit::LengthUnit;
 pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
+use crate::job::{Job, Picture};
 use crate::surface::{Model, PolygonMesh, Source, builtin, sew};
 use serde::{Deserialize, Serialize};
 use soup::Soup;
 use std::path::Path;
+
+/// What a stop in here is told as.
+pub(crate) const READING: &str = "reading";
+const WRITING: &str = "writing";
 
 /// Extensions of the mesh formats.
 pub(crate) const MESH_FORMATS: &str = "obj, ply, stl, off, gltf, glb, json";
@@ -84,15 +89,15 @@ pub struct Opening {
 ///
 /// # Errors
 /// As [`open_with`].
-pub fn open(name_or_path: &str) -> Result<Model> {
-    open_with(name_or_path, &Opening::default())
+pub fn open(name_or_path: &str, job: &Job) -> Result<Model> {
+    open_with(name_or_path, &Opening::default(), job)
 }
 
 /// A built-in surface by its name, else the file at this path.
 ///
 /// # Errors
 /// [`Error::Option`] listing the built-in names when there is neither; what [`load`] says of the file.
-pub fn open_with(name_or_path: &str, opening: &Opening) -> Result<Model> {
+pub fn open_with(name_or_path: &str, opening: &Opening, job: &Job) -> Result<Model> {
     if let Some(model) = builtin::model(name_or_path) {
         return Ok(model);
     }
@@ -104,7 +109,7 @@ pub fn open_with(name_or_path: &str, opening: &Opening) -> Result<Model> {
             names.join(", ")
         )));
     }
-    load(path, opening)
+    load(path, opening, job)
 }
 
 /// The surface in a file, by its extension. Faces that only touch are [sewn](crate::surface::sew()).
@@ -114,20 +119,25 @@ pub fn open_with(name_or_path: &str, opening: &Opening) -> Result<Model> {
 /// manifold surface, [`Error::Option`] listing the known extensions for an unknown one, where the sewing tolerance is
 /// too large for the model, where a unit is given for a format that always states its own, or objects are chosen
 /// that are not there.
-pub fn load(path: &Path, opening: &Opening) -> Result<Model> {
+pub fn load(path: &Path, opening: &Opening, job: &Job) -> Result<Model> {
     if mesh_reader(path).is_some() {
-        return read_mesh_with(path, opening).map(Model::Mesh);
+        return read_mesh_with(path, opening, job).map(Model::Mesh);
     }
-    let mut model = match extension(path).as_str() {
-        "step" | "stp" => unnamed(path, opening).and_then(|()| step::read(path)),
-        "iges" | "igs" => unnamed(path, opening).and_then(|()| iges::read(path)).map(Model::Brep),
-        "3dm" => rhino(path, &opening.choice),
+    job.progress("read", 0.0, Picture::None);
+    let model = match extension(path).as_str() {
+        "step" | "stp" => unnamed(path, opening).and_then(|()| step::read(path, job)),
+        "iges" | "igs" => {
+            unnamed(path, opening).and_then(|()| iges::read(path, job)).map(Model::Brep)
+        }
+        "3dm" => rhino(path, &opening.choice, job),
         _ => Err(unknown(path, SURFACE_FORMATS)),
-    }?;
+    };
+    job.check(READING)?;
+    let mut model = model?;
     refuse_unit(path, opening)?;
     let odd = odd_size(model.size());
     if let Model::Brep(brep) = &mut model {
-        sew(brep, opening.sew)?;
+        sew(brep, opening.sew, job)?;
         brep.notes.extend(odd);
     }
     Ok(model)
@@ -144,12 +154,12 @@ fn odd_size(size: f64) -> Option<String> {
 }
 
 #[cfg(feature = "3dm")]
-fn rhino(path: &Path, choice: &Choice) -> Result<Model> {
-    rhino::read(path, choice)
+fn rhino(path: &Path, choice: &Choice, job: &Job) -> Result<Model> {
+    rhino::read(path, choice, job)
 }
 
 #[cfg(not(feature = "3dm"))]
-fn rhino(path: &Path, _: &Choice) -> Result<Model> {
+fn rhino(path: &Path, _: &Choice, _: &Job) -> Result<Model> {
     Err(Error::Option(format!(
         "{}: this program was built without Rhino files; build it with `--features 3dm`, or export STEP from Rhino",
         path.display()
@@ -180,27 +190,34 @@ fn refuse_unit(path: &Path, opening: &Opening) -> Result<()> {
 ///
 /// # Errors
 /// As [`load`].
-pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
-    read_mesh_with(path, &Opening::default())
+pub fn read_mesh(path: &Path, job: &Job) -> Result<PolygonMesh> {
+    read_mesh_with(path, &Opening::default(), job)
 }
 
 /// The mesh in a file, by its extension: in metres, welded, oriented, without degenerate faces.
 ///
 /// # Errors
 /// As [`load`].
-pub fn read_mesh_with(path: &Path, opening: &Opening) -> Result<PolygonMesh> {
+pub fn read_mesh_with(path: &Path, opening: &Opening, job: &Job) -> Result<PolygonMesh> {
     let read = mesh_reader(path).ok_or_else(|| unknown(path, MESH_FORMATS))?;
     unnamed(path, opening)?;
     if matches!(extension(path).as_str(), "gltf" | "glb") {
         refuse_unit(path, opening)?;
     }
-    let mut mesh = weld::weld(path, read(path)?, opening)?;
+    job.progress("read", 0.0, Picture::None);
+    let soup = read(path, job);
+    // What was broken off tells nothing of the file.
+    job.check(READING)?;
+    job.progress("read", 0.5, Picture::None);
+    let mesh = weld::weld(path, soup?, opening, job);
+    job.check(READING)?;
+    let mut mesh = mesh?;
     let losses = std::mem::take(&mut mesh.source.losses);
     mesh.source = Source { losses, ..Source::of_format(&extension(path).to_uppercase()) };
     Ok(mesh)
 }
 
-type MeshReader = fn(&Path) -> Result<Soup>;
+type MeshReader = fn(&Path, &Job) -> Result<Soup>;
 
 fn mesh_reader(path: &Path) -> Option<MeshReader> {
     match extension(path).as_str() {

@@ -3,6 +3,8 @@
 use super::document::{Document, SCHEMA};
 use super::{file, scan};
 use crate::error::{Error, Result};
+use crate::io::WRITING;
+use crate::job::Job;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -10,8 +12,8 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`Error::Parse`](crate::Error::Parse) with the line of what is no such file, or the node or panel that is wrong.
-pub fn read_document(path: &Path) -> Result<Document> {
-    let bytes = file::read(path)?;
+pub fn read_document(path: &Path, job: &Job) -> Result<Document> {
+    let bytes = file::read(path, job)?;
     let document: Document = match serde_json::from_slice(&bytes) {
         Ok(document) => document,
         Err(e) => return Err(refusal(path, &bytes, &e)),
@@ -80,7 +82,7 @@ fn check(document: &Document) -> std::result::Result<(), (String, String)> {
 }
 
 /// The document as text: lists of elements take a line each.
-pub(super) fn encode(document: &Document) -> Vec<u8> {
+pub(super) fn encode(document: &Document, job: &Job) -> Vec<u8> {
     let mut out = String::from("{");
     entry(&mut out, "schema", &document.schema);
     entry(&mut out, "version", &document.version);
@@ -90,13 +92,13 @@ pub(super) fn encode(document: &Document) -> Vec<u8> {
     entry(&mut out, "seed", &document.seed);
     entry(&mut out, "edge_length", &document.edge_length);
     entry(&mut out, "recipe", &document.recipe);
-    list(&mut out, "nodes", &document.nodes);
-    list(&mut out, "places", &document.places);
-    list(&mut out, "panels", &document.panels);
-    list(&mut out, "features", &document.features);
+    list(&mut out, "nodes", &document.nodes, job);
+    list(&mut out, "places", &document.places, job);
+    list(&mut out, "panels", &document.panels, job);
+    list(&mut out, "features", &document.features, job);
     entry(&mut out, "anchors", &document.anchors);
     entry(&mut out, "supports", &document.supports);
-    list(&mut out, "edits", &document.edits);
+    list(&mut out, "edits", &document.edits, job);
     if document.invalid.is_some() {
         entry(&mut out, "invalid", &document.invalid);
     }
@@ -118,10 +120,10 @@ fn entry(out: &mut String, name: &str, value: &impl serde::Serialize) {
     out.push_str(&text(value));
 }
 
-fn list<T: serde::Serialize>(out: &mut String, name: &str, values: &[T]) {
+fn list<T: serde::Serialize>(out: &mut String, name: &str, values: &[T], job: &Job) {
     begin(out, name);
     out.push('[');
-    for (k, value) in values.iter().enumerate() {
+    for (k, value) in values.iter().enumerate().take_while(|_| !job.is_over(WRITING)) {
         out.push_str(if k == 0 { "\n" } else { ",\n" });
         out.push_str(&text(value));
     }

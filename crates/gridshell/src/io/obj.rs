@@ -6,6 +6,8 @@ use super::scan::{self, Line};
 use super::soup::Soup;
 use super::{LengthUnit, file, text};
 use crate::error::Result;
+use crate::io::WRITING;
+use crate::job::Job;
 use glam::DVec3;
 use std::collections::HashSet;
 use std::fmt::Write;
@@ -16,8 +18,8 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`Error::Parse`](crate::Error::Parse) with the line.
-pub(super) fn read(path: &Path) -> Result<Soup> {
-    let bytes = file::read(path)?;
+pub(super) fn read(path: &Path, job: &Job) -> Result<Soup> {
+    let bytes = file::read(path, job)?;
     let text = text::decode(&bytes);
     let joined = if text.contains('\\') { join_continued(&text) } else { text.into_owned() };
     let unit = joined
@@ -28,7 +30,7 @@ pub(super) fn read(path: &Path) -> Result<Soup> {
     let (mut curved, mut dots, mut lines) = (0, 0, Vec::new());
     // With the number of vertices above: those further down may be named as well.
     let mut drawn: Vec<(Line, usize)> = Vec::new();
-    for line in scan::lines(path, &joined) {
+    for line in scan::lines(path, &joined, job) {
         let mut words = line.text.split_ascii_whitespace();
         match words.next() {
             Some("v") => soup.points.push(line.point(&mut words)?),
@@ -90,20 +92,20 @@ fn join_continued(text: &str) -> String {
 }
 
 /// The grid as OBJ: nodes, panels, then members as lines, and as points the irregular nodes and the supports.
-pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
+pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     let mut out = String::new();
     for line in grid.header() {
         let _ = writeln!(out, "# {line}");
     }
-    for DVec3 { x, y, z } in &grid.schedule.nodes.xyz {
+    for DVec3 { x, y, z } in grid.schedule.nodes.xyz.iter().take_while(|_| !job.is_over(WRITING)) {
         let _ = writeln!(out, "v {x} {y} {z}");
     }
     out.push_str("g panels\n");
-    for [a, b, c] in &grid.schedule.panels.nodes {
+    for [a, b, c] in grid.schedule.panels.nodes.iter().take_while(|_| !job.is_over(WRITING)) {
         let _ = writeln!(out, "f {} {} {}", a + 1, b + 1, c + 1);
     }
     out.push_str("g members\n");
-    for [a, b] in &grid.schedule.members.ends {
+    for [a, b] in grid.schedule.members.ends.iter().take_while(|_| !job.is_over(WRITING)) {
         let _ = writeln!(out, "l {} {}", a + 1, b + 1);
     }
     let nodes = &grid.schedule.nodes;

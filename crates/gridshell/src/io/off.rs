@@ -9,6 +9,8 @@ use super::scan::{self, Line};
 use super::soup::Soup;
 use super::{LengthUnit, file, text};
 use crate::error::{Error, Result};
+use crate::io::WRITING;
+use crate::job::Job;
 use glam::DVec3;
 use std::fmt::Write;
 use std::path::Path;
@@ -17,12 +19,12 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`Error::Parse`](crate::Error::Parse) with the line.
-pub(super) fn read(path: &Path) -> Result<Soup> {
-    let bytes = file::read(path)?;
+pub(super) fn read(path: &Path, job: &Job) -> Result<Soup> {
+    let bytes = file::read(path, job)?;
     let text = text::decode(&bytes);
     let comments = text.lines().filter_map(|line| line.split_once('#'));
     let unit = comments.map(|(_, comment)| comment).find_map(LengthUnit::stated);
-    let (head, words) = Head::read(path, &text)?;
+    let (head, words) = Head::read(path, &text, job)?;
     let (points, faces) = body(&head, &words)?;
     Ok(Soup { points, faces, unit, ..Soup::default() })
 }
@@ -72,21 +74,22 @@ struct Words<'a> {
     line: Option<Line<'a>>,
     rest: std::str::SplitAsciiWhitespace<'a>,
     below: scan::Lines<'a>,
+    job: &'a Job,
     /// The one line that they are the words of, where they are those of one.
     only: Option<Line<'a>>,
 }
 
 impl<'a> Words<'a> {
-    fn new(path: &'a Path, text: &'a str) -> Words<'a> {
-        let below = scan::lines(path, text);
-        Words { path, line: None, rest: "".split_ascii_whitespace(), below, only: None }
+    fn new(path: &'a Path, text: &'a str, job: &'a Job) -> Words<'a> {
+        let below = scan::lines(path, text, job);
+        Words { path, line: None, rest: "".split_ascii_whitespace(), below, only: None, job }
     }
 
     /// The words of one line only.
-    fn of(path: &'a Path, line: Line<'a>) -> Words<'a> {
+    fn of(path: &'a Path, line: Line<'a>, job: &'a Job) -> Words<'a> {
         let rest = line.text.split_ascii_whitespace();
-        let below = scan::lines(path, "");
-        Words { path, line: Some(line), rest, below, only: Some(line) }
+        let below = scan::lines(path, "", job);
+        Words { path, line: Some(line), rest, below, only: Some(line), job }
     }
 
     fn word(&mut self) -> Option<(Line<'a>, &'a str)> {
@@ -132,8 +135,8 @@ struct Head {
 
 impl Head {
     /// Keyword, dimension and counts; what follows are the vertices.
-    fn read<'a>(path: &'a Path, text: &'a str) -> Result<(Head, Words<'a>)> {
-        let mut words = Words::new(path, text);
+    fn read<'a>(path: &'a Path, text: &'a str, job: &'a Job) -> Result<(Head, Words<'a>)> {
+        let mut words = Words::new(path, text, job);
         let mut head = Head { vertices: 0, faces: 0, width: 3, weighted: false, coloured: false };
         let mut ahead = words.clone();
         let Some((line, keyword)) = ahead.word() else { return Err(words.ends()) };
@@ -222,7 +225,7 @@ impl Head {
     /// One vertex or face a line, whatever else stands in it, and below them.
     fn by_lines(&self, words: &Words) -> Result<Body> {
         let mut body = Body::default();
-        let mut lines = words.below.clone().map(|line| Words::of(words.path, line));
+        let mut lines = words.below.clone().map(|line| Words::of(words.path, line, words.job));
         for _ in 0..self.vertices {
             let mut line = lines.next().ok_or_else(|| words.ends())?;
             body.0.push(self.vertex(&mut line)?);
@@ -273,7 +276,7 @@ fn face(words: &mut Words, count: usize) -> Result<Vec<u32>> {
 }
 
 /// The grid as OFF; the format has no place for members.
-pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
+pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     let mut out = String::from("OFF\n");
     for line in grid.header() {
         let _ = writeln!(out, "# {line}");
@@ -285,10 +288,10 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
         grid.schedule.panels.nodes.len(),
         grid.schedule.members.ends.len()
     );
-    for DVec3 { x, y, z } in &grid.schedule.nodes.xyz {
+    for DVec3 { x, y, z } in grid.schedule.nodes.xyz.iter().take_while(|_| !job.is_over(WRITING)) {
         let _ = writeln!(out, "{x} {y} {z}");
     }
-    for [a, b, c] in &grid.schedule.panels.nodes {
+    for [a, b, c] in grid.schedule.panels.nodes.iter().take_while(|_| !job.is_over(WRITING)) {
         let _ = writeln!(out, "3 {a} {b} {c}");
     }
     out.into_bytes()

@@ -2,6 +2,8 @@
 //! one command a line, without loops. Tags are the numbers of nodes and members plus 1.
 
 use super::GridFile;
+use crate::io::WRITING;
+use crate::job::Job;
 use crate::schedule::Schedule;
 use crate::structure::Properties;
 use glam::DVec3;
@@ -11,7 +13,7 @@ use std::fmt::Write;
 const GRAVITY: f64 = 9.80665;
 
 /// The file's bytes.
-pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
+pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     let Schedule { nodes, members, .. } = grid.schedule;
     let (section, material) = (&grid.structure.section, &grid.structure.material);
     let Properties { area, iy, iz, torsion } = section.shape.properties();
@@ -23,14 +25,15 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
     out.push_str("wipe\nmodel BasicBuilder -ndm 3 -ndf 6\n");
     let joints = grid.joints();
     let own = |v: &u32| joints[*v as usize] == *v;
-    for (v, p) in nodes.xyz.iter().enumerate().filter(|(v, _)| own(&(*v as u32))) {
+    let nodes_of = nodes.xyz.iter().enumerate().filter(|(v, _)| own(&(*v as u32)));
+    for (v, p) in nodes_of.take_while(|_| !job.is_over(WRITING)) {
         let _ = writeln!(out, "node {} {} {} {}", v + 1, p.x, p.y, p.z);
     }
     let supported = grid.held(&joints);
     for v in (0..supported.len()).filter(|&v| supported[v]) {
         let _ = writeln!(out, "fix {} 1 1 1 0 0 0", v + 1);
     }
-    for (k, [a, b]) in members.ends.iter().enumerate() {
+    for (k, [a, b]) in members.ends.iter().enumerate().take_while(|_| !job.is_over(WRITING)) {
         let (tag, n) = (k + 1, members.normal[k]);
         let _ = writeln!(out, "geomTransf Linear {tag} {} {} {}", n.x, n.y, n.z);
         let _ = writeln!(
@@ -41,7 +44,7 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
         );
     }
     out.push_str("timeSeries Linear 1\npattern Plain 1 1 {\n");
-    for (k, [a, b]) in members.ends.iter().enumerate() {
+    for (k, [a, b]) in members.ends.iter().enumerate().take_while(|_| !job.is_over(WRITING)) {
         let x = (nodes.xyz[*b as usize] - nodes.xyz[*a as usize]).normalize_or_zero();
         let z = members.normal[k];
         let y = z.cross(x);

@@ -5,6 +5,8 @@ use super::grid_file::GridFile;
 use super::soup::{Digits, Soup};
 use super::{LengthUnit, file, scan};
 use crate::error::{Error, Result};
+use crate::io::WRITING;
+use crate::job::Job;
 use crate::schedule::Schedule;
 use glam::DVec3;
 use std::fmt::Write;
@@ -56,8 +58,8 @@ struct Head {
 ///
 /// # Errors
 /// [`Error::Parse`] with the line of the head or the element of the body.
-pub(super) fn read(path: &Path) -> Result<Soup> {
-    let bytes = file::read(path)?;
+pub(super) fn read(path: &Path, job: &Job) -> Result<Soup> {
+    let bytes = file::read(path, job)?;
     let (head, body) = split_head(path, &bytes)?;
     let mut body = Body { path, encoding: head.encoding, rest: body, place: String::new() };
     let mut soup = Soup { unit: head.unit, digits: head.digits(), ..Soup::default() };
@@ -369,7 +371,7 @@ impl Body<'_> {
 }
 
 /// The grid as text PLY with an element for the members; its measures are properties.
-pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
+pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     let Schedule { nodes, members, panels, .. } = grid.schedule;
     let mut out = String::from("ply\nformat ascii 1.0\n");
     for line in grid.header() {
@@ -389,18 +391,19 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
     out.push_str("property double nx\nproperty double ny\nproperty double nz\n");
     out.push_str("end_header\n");
     let supported = grid.supported();
-    for (v, DVec3 { x, y, z }) in nodes.xyz.iter().enumerate() {
+    for (v, DVec3 { x, y, z }) in nodes.xyz.iter().enumerate().take_while(|_| !job.is_over(WRITING))
+    {
         let n = nodes.normal[v];
         let _ = write!(out, "{x} {y} {z} {} {} {} ", n.x, n.y, n.z);
         let (boundary, support) = (u8::from(nodes.boundary[v]), u8::from(supported[v]));
         let (degree, adjusted) = (nodes.degree[v], nodes.adjusted_degree[v]);
         let _ = writeln!(out, "{degree} {adjusted} {boundary} {support} {}", nodes.group[v]);
     }
-    for (k, [a, b, c]) in panels.nodes.iter().enumerate() {
+    for (k, [a, b, c]) in panels.nodes.iter().enumerate().take_while(|_| !job.is_over(WRITING)) {
         let (area, shape, group) = (panels.area[k], panels.shape[k], panels.group[k]);
         let _ = writeln!(out, "3 {a} {b} {c} {area} {shape} {group}");
     }
-    for (k, [a, b]) in members.ends.iter().enumerate() {
+    for (k, [a, b]) in members.ends.iter().enumerate().take_while(|_| !job.is_over(WRITING)) {
         let (length, twist, n) = (members.length[k], members.twist_deg[k], members.normal[k]);
         let _ = write!(out, "{a} {b} {length} {twist} {} ", members.group[k]);
         let _ = writeln!(out, "{} {} {}", n.x, n.y, n.z);

@@ -3,6 +3,7 @@
 
 use super::{Opening, digest, file, load, open};
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::surface::{Model, builtin};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -35,11 +36,11 @@ fn is_usual(opening: &Opening) -> bool {
 ///
 /// # Errors
 /// What reading the file gives.
-pub fn reference(name_or_path: &str, opening: &Opening) -> Result<Reference> {
+pub fn reference(name_or_path: &str, opening: &Opening, job: &Job) -> Result<Reference> {
     if builtin::model(name_or_path).is_some() {
         return Ok(Reference::Builtin(name_or_path.to_owned()));
     }
-    let bytes = file::read(Path::new(name_or_path))?;
+    let bytes = file::read(Path::new(name_or_path), job)?;
     Ok(Reference::File {
         path: name_or_path.to_owned(),
         bytes: bytes.len() as u64,
@@ -52,13 +53,13 @@ pub fn reference(name_or_path: &str, opening: &Opening) -> Result<Reference> {
 ///
 /// # Errors
 /// As [`open`]; [`Error::Surface`] where the file is no longer the one that the grid was laid on.
-pub fn open_reference(reference: &Reference, beside: &Path) -> Result<Model> {
+pub fn open_reference(reference: &Reference, beside: &Path, job: &Job) -> Result<Model> {
     match reference {
-        Reference::Builtin(name) => open(name),
+        Reference::Builtin(name) => open(name, job),
         Reference::File { path, bytes, fnv1a, opening } => {
             let near = beside.with_file_name("").join(path);
             let path = if near.exists() { near } else { path.into() };
-            let now = file::read(&path)?;
+            let now = file::read(&path, job)?;
             let same =
                 now.len() as u64 == *bytes && format!("{:016x}", digest::fnv1a_64(&now)) == *fnv1a;
             if !same {
@@ -68,7 +69,7 @@ pub fn open_reference(reference: &Reference, beside: &Path) -> Result<Model> {
                     beside.display()
                 )));
             }
-            load(&path, opening)
+            load(&path, opening, job)
         }
     }
 }

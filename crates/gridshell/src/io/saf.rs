@@ -5,6 +5,7 @@
 use super::GridFile;
 use super::xlsx::Cell::{Blank, Made, Number, Text};
 use super::xlsx::{Cell, MOST_ROWS, Workbook};
+use crate::job::Job;
 use crate::schedule::Schedule;
 use crate::structure::{Material, Shape, Structure};
 
@@ -12,7 +13,7 @@ use crate::structure::{Material, Shape, Structure};
 const SECTION: &str = "CS1";
 
 /// The file's bytes; the error says why it cannot be.
-pub(super) fn encode(grid: &GridFile) -> Result<Vec<u8>, String> {
+pub(super) fn encode(grid: &GridFile, job: &Job) -> Result<Vec<u8>, String> {
     if grid.schedule.members.ends.len() >= MOST_ROWS {
         return Err(format!(
             "{} members: a sheet holds {} rows; write another format, or a coarser grid",
@@ -20,7 +21,7 @@ pub(super) fn encode(grid: &GridFile) -> Result<Vec<u8>, String> {
             MOST_ROWS - 1
         ));
     }
-    let mut book = Workbook::default();
+    let mut book = Workbook::new(job);
     project(&mut book, grid);
     model(&mut book, grid);
     materials(&mut book, grid);

@@ -1,6 +1,7 @@
 //! Reading text line by line: numbers, and errors that name the line.
 
 use crate::error::{Error, Result};
+use crate::job::Job;
 use glam::DVec3;
 use std::iter::Enumerate;
 use std::path::Path;
@@ -17,15 +18,17 @@ pub(super) struct Line<'a> {
 }
 
 /// The lines of a text that are not blank once their comment is cut off at `#`.
-pub(super) fn lines<'a>(path: &'a Path, text: &'a str) -> Lines<'a> {
-    Lines { path, lines: text.lines().enumerate() }
+/// They end early where the job is over, which the caller is to check.
+pub(super) fn lines<'a>(path: &'a Path, text: &'a str, job: &'a Job) -> Lines<'a> {
+    Lines { path, job, rest: text.lines().enumerate() }
 }
 
 /// What [`lines`] gives.
 #[derive(Clone)]
 pub(super) struct Lines<'a> {
     path: &'a Path,
-    lines: Enumerate<std::str::Lines<'a>>,
+    job: &'a Job,
+    rest: Enumerate<std::str::Lines<'a>>,
 }
 
 impl<'a> Iterator for Lines<'a> {
@@ -33,7 +36,10 @@ impl<'a> Iterator for Lines<'a> {
 
     fn next(&mut self) -> Option<Line<'a>> {
         loop {
-            let (k, line) = self.lines.next()?;
+            if self.job.is_over("reading") {
+                return None;
+            }
+            let (k, line) = self.rest.next()?;
             let text = line.split('#').next().unwrap_or_default().trim();
             if !text.is_empty() {
                 return Some(Line { path: self.path, number: k + 1, text });

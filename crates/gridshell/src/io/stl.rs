@@ -5,6 +5,8 @@ use super::grid_file::GridFile;
 use super::soup::{Digits, Soup};
 use super::{LengthUnit, file, scan, text, weld};
 use crate::error::Result;
+use crate::io::WRITING;
+use crate::job::Job;
 use glam::{DVec3, Vec3};
 use std::path::Path;
 
@@ -19,8 +21,8 @@ const COARSE: f64 = 1e-5;
 ///
 /// # Errors
 /// [`Error::Parse`](crate::Error::Parse) with line or facet.
-pub(super) fn read(path: &Path) -> Result<Soup> {
-    let bytes = file::read(path)?;
+pub(super) fn read(path: &Path, job: &Job) -> Result<Soup> {
+    let bytes = file::read(path, job)?;
     let facets = bytes.get(80..HEAD).map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]) as usize);
     let start = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes).trim_ascii_start();
     let text_like = start.get(..5).is_some_and(|s| s.eq_ignore_ascii_case(b"solid"));
@@ -37,7 +39,7 @@ pub(super) fn read(path: &Path) -> Result<Soup> {
             Soup { unit, digits: Digits::Single, ..read_binary(path, &bytes[HEAD..], n)? }
         }
         // A text file has no zero bytes; a cut-off binary one surely does.
-        _ if text_like && !bytes.contains(&0) => read_text(path, &bytes)?,
+        _ if text_like && !bytes.contains(&0) => read_text(path, &bytes, job)?,
         Some(n) => {
             let message =
                 format!("the file ends here, but its head promises {n} facets; export it again");
@@ -76,11 +78,11 @@ fn read_binary(path: &Path, bytes: &[u8], facets: usize) -> Result<Soup> {
     Ok(soup)
 }
 
-fn read_text(path: &Path, bytes: &[u8]) -> Result<Soup> {
+fn read_text(path: &Path, bytes: &[u8], job: &Job) -> Result<Soup> {
     let text = text::decode(bytes);
     let mut soup = Soup::default();
     let mut corners = Vec::new();
-    for line in scan::lines(path, &text) {
+    for line in scan::lines(path, &text, job) {
         let mut words = line.text.split_ascii_whitespace();
         match words.next().map(str::to_ascii_lowercase).as_deref() {
             Some("vertex") => corners.push(line.point(&mut words)?),
@@ -124,7 +126,7 @@ fn note_precision(soup: &mut Soup) {
 }
 
 /// The grid as binary STL; the format has no place for members, and 80 letters for the rest.
-pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
+pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     // It must not begin with `solid`, which marks the text form.
     let document = grid.document;
     let seed = document.seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
@@ -132,7 +134,8 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
     let mut out: Vec<u8> = title.bytes().chain(std::iter::repeat(b' ')).take(80).collect();
     let panels = &grid.schedule.panels;
     out.extend((panels.nodes.len() as u32).to_le_bytes());
-    for (t, normal) in panels.nodes.iter().zip(&panels.normal) {
+    for (t, normal) in panels.nodes.iter().zip(&panels.normal).take_while(|_| !job.is_over(WRITING))
+    {
         let corners = t.map(|v| grid.schedule.nodes.xyz[v as usize]);
         for p in [*normal, corners[0], corners[1], corners[2]] {
             for c in p.as_vec3().to_array() {

@@ -24,7 +24,7 @@ impl Scratch {
     }
 
     fn read(&self) -> Result<PolygonMesh> {
-        read_mesh(&self.0)
+        read_mesh(&self.0, &Job::default())
     }
 
     fn refused(&self) -> String {
@@ -57,7 +57,7 @@ impl Made {
 
     fn write(&self, path: &Path) {
         let Made { document, schedule, structure } = self;
-        write(path, &GridFile { document, schedule, structure }).expect("written");
+        write(path, &GridFile { document, schedule, structure }, &Job::default()).expect("written");
     }
 }
 
@@ -264,7 +264,7 @@ fn a_t_junction_leaves_no_slit() {
     let mesh = Scratch::new("slit.obj", text).read().expect("a mesh");
     assert!(mesh.notes.iter().any(|n| n.contains("joined 1 vertices")), "{:?}", mesh.notes);
     let sampling = Sampling { max_edge: 9.0, chord_error: 1.0, corner_angle: 0.5 };
-    let surface = mesh.surface(&sampling).expect("a surface");
+    let surface = mesh.surface(&sampling, &Job::default()).expect("a surface");
     assert_eq!((surface.loops.len(), surface.euler_characteristic()), (1, 1));
     assert!((surface.area - 6.0).abs() < 1e-12);
 }
@@ -274,7 +274,9 @@ fn copies_of_vertices_further_apart_than_rounding_are_sewn_when_asked() {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1.0003 0 0\nv 0 1.0003 0\nv 1 1 0\nf 1 2 3\nf 4 6 5\n";
     let file = Scratch::new("apart.obj", text);
     assert_eq!(file.read().expect("two pieces").points.len(), 6);
-    let sewn = |sew| read_mesh_with(&file.0, &Opening { sew: Some(sew), ..Opening::default() });
+    let sewn = |sew| {
+        read_mesh_with(&file.0, &Opening { sew: Some(sew), ..Opening::default() }, &Job::default())
+    };
     assert_eq!(sewn(0.001).expect("one piece").points.len(), 4);
     assert!(sewn(0.5).expect_err("too much").to_string().contains("from 0 to 0.01"));
 }
@@ -360,11 +362,11 @@ fn units_are_taken_from_comments_and_from_the_designer() {
     assert_eq!(mesh.points[1], DVec3::X);
     assert!(mesh.notes.is_empty(), "{:?}", mesh.notes);
     let opening = Opening { unit: Some(LengthUnit::Foot), ..Opening::default() };
-    let mesh = read_mesh_with(&file.0, &opening).expect("a mesh");
+    let mesh = read_mesh_with(&file.0, &opening, &Job::default()).expect("a mesh");
     assert_eq!(mesh.points[1].x, 1000.0 * 0.3048);
     assert!(mesh.notes.iter().any(|n| n.contains("states mm")), "{:?}", mesh.notes);
     let glb = Scratch::new("unit.glb", "");
-    assert!(matches!(load(&glb.0, &opening), Err(Error::Option(_))));
+    assert!(matches!(load(&glb.0, &opening, &Job::default()), Err(Error::Option(_))));
 }
 
 #[test]
@@ -416,7 +418,7 @@ fn face_cut_open_to_its_hole_keeps_its_area() {
                 f 1 2 3 4 1 5 8 7 6 5\n";
     let mesh = Scratch::new("slit.obj", text).read().expect("a mesh");
     let sampling = Sampling { max_edge: 9.0, chord_error: 0.1, corner_angle: 0.5 };
-    let surface = mesh.surface(&sampling).expect("a surface");
+    let surface = mesh.surface(&sampling, &Job::default()).expect("a surface");
     assert!((surface.area - 12.0).abs() < 1e-12, "{}", surface.area);
     assert_eq!(surface.loops.len(), 2);
 }
@@ -586,7 +588,7 @@ proptest::proptest! {
         }
         if let Ok(mesh) = Scratch::new("soup.obj", text).read() {
             let sampling = Sampling { max_edge: 1.0, chord_error: 0.1, corner_angle: 0.5 };
-            let surface = mesh.surface(&sampling).expect("a surface");
+            let surface = mesh.surface(&sampling, &Job::default()).expect("a surface");
             let carrier = &surface.carrier;
             Mesh::from_triangles(carrier.points.len(), &carrier.triangles).expect("a manifold");
         }
@@ -638,17 +640,19 @@ fn a_grid_file_reads_back_to_the_last_bit() {
             .document
     };
     document.nodes = xyz.iter().map(DVec3::to_array).collect();
-    let file = Scratch::new("again.gridshell", native::encode(&document));
-    let back = read_document(&file.0).expect("a grid file");
+    let file = Scratch::new("again.gridshell", native::encode(&document, &Job::default()));
+    let back = read_document(&file.0, &Job::default()).expect("a grid file");
     assert_eq!(back, document);
     assert!(back.nodes[0][1].is_sign_negative());
-    assert_eq!(native::encode(&back), fs::read(&file.0).expect("readable"));
+    assert_eq!(native::encode(&back, &Job::default()), fs::read(&file.0).expect("readable"));
 }
 
 #[test]
 fn grid_files_that_are_none_are_refused_with_where() {
-    let good =
-        native::encode(&Made::new(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]]).document);
+    let good = native::encode(
+        &Made::new(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]]).document,
+        &Job::default(),
+    );
     let good = String::from_utf8(good).expect("JSON");
     for (from, to, told) in [
         ("gridshell.grid/1", "gridshell.grid/9", "schema: its schema is `gridshell.grid/9`"),
@@ -659,7 +663,7 @@ fn grid_files_that_are_none_are_refused_with_where() {
     ] {
         assert!(good.contains(from), "{from}");
         let file = Scratch::new("wrong.gridshell", good.replace(from, to));
-        let error = read_document(&file.0).expect_err(to).to_string();
+        let error = read_document(&file.0, &Job::default()).expect_err(to).to_string();
         assert!(error.contains(told), "{error}");
     }
 }
@@ -682,9 +686,9 @@ fn every_format_is_written_and_names_its_version() {
 
 #[test]
 fn unknown_names_and_extensions_are_answered_with_the_known_ones() {
-    let message = open("great-curt").expect_err("an error").to_string();
+    let message = open("great-curt", &Job::default()).expect_err("an error").to_string();
     assert!(message.contains("great-court") && message.contains("facade"), "{message}");
     let message = Scratch::new("roof.xyz", "").refused();
     assert!(message.contains("obj, ply, stl, off"), "{message}");
-    assert!(matches!(open("hexagon"), Ok(Model::Brep(_))));
+    assert!(matches!(open("hexagon", &Job::default()), Ok(Model::Brep(_))));
 }

@@ -3,6 +3,7 @@
 
 use super::{file, scan};
 use crate::error::Result;
+use crate::job::Job;
 use std::path::Path;
 
 /// More points than this are no table of wishes.
@@ -12,40 +13,41 @@ const MOST_POINTS: usize = 1_000_000;
 ///
 /// # Errors
 /// [`Error::Io`](crate::Error::Io), [`Error::Parse`](crate::Error::Parse) with the line.
-pub fn read_lengths(path: &Path) -> Result<Vec<[f64; 4]>> {
+pub fn read_lengths(path: &Path, job: &Job) -> Result<Vec<[f64; 4]>> {
     let positive = |row: &[f64; 4]| {
         if row[3] > 0.0 {
             return Ok(());
         }
         Err(format!("the length is {}: it must be positive", row[3]))
     };
-    read(path, ["x", "y", "z", "length"], positive)
+    read(path, ["x", "y", "z", "length"], positive, job)
 }
 
 /// Read wanted directions at points: `x, y, z, dx, dy, dz`.
 ///
 /// # Errors
 /// As [`read_lengths`].
-pub fn read_directions(path: &Path) -> Result<Vec<[f64; 6]>> {
+pub fn read_directions(path: &Path, job: &Job) -> Result<Vec<[f64; 6]>> {
     let nonzero = |row: &[f64; 6]| {
         if row[3..].iter().any(|&d| d != 0.0) {
             return Ok(());
         }
         Err("the vector is zero: a direction must be longer".to_owned())
     };
-    read(path, ["x", "y", "z", "dx", "dy", "dz"], nonzero)
+    read(path, ["x", "y", "z", "dx", "dy", "dz"], nonzero, job)
 }
 
 fn read<const N: usize>(
     path: &Path,
     names: [&str; N],
     check: impl Fn(&[f64; N]) -> std::result::Result<(), String>,
+    job: &Job,
 ) -> Result<Vec<[f64; N]>> {
-    let bytes = file::read(path)?;
+    let bytes = file::read(path, job)?;
     let text = String::from_utf8_lossy(&bytes);
     let parts = |c: char| c == ',' || c == ';' || c.is_whitespace();
     let mut rows = Vec::new();
-    for (k, line) in scan::lines(path, &text).enumerate() {
+    for (k, line) in scan::lines(path, &text, job).enumerate() {
         let words: Vec<&str> = line.text.split(parts).filter(|w| !w.is_empty()).collect();
         if k == 0 && words.iter().all(|w| w.parse::<f64>().is_err()) {
             continue;
@@ -81,7 +83,7 @@ mod tests {
     fn lengths(name: &str, text: &str) -> Result<Vec<[f64; 4]>> {
         let path = std::env::temp_dir().join(format!("gridshell-{}-{name}", std::process::id()));
         std::fs::write(&path, text).expect("temporary files can be written");
-        let rows = read_lengths(&path);
+        let rows = read_lengths(&path, &Job::default());
         std::fs::remove_file(&path).expect("it was just written");
         rows
     }

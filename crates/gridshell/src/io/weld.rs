@@ -6,8 +6,9 @@
 //! vertices. What was done is told in the notes.
 
 use super::soup::Soup;
-use super::{LengthUnit, Opening, far, file, fins, merge, stitch, thin, turn};
+use super::{LengthUnit, Opening, READING, far, file, fins, merge, stitch, thin, turn};
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::surface::nurbs::FARTHEST;
 use crate::surface::{PolygonMesh, Source, ear};
 use glam::DVec3;
@@ -44,17 +45,20 @@ pub(super) struct Work {
 /// # Errors
 /// [`Error::Surface`] where there is no face, a coordinate out of bounds, an edge of more than two faces, or the
 /// surface has one side only.
-pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening) -> Result<PolygonMesh> {
+pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening, job: &Job) -> Result<PolygonMesh> {
     let digits = soup.digits;
     let losses = soup.losses.clone();
     if soup.faces.is_empty() {
         return Err(Error::Surface(no_faces(path, soup.points.len())));
     }
     let mut work = Work::new(path, soup, opening.unit)?;
+    job.check(READING)?;
     merge::identical(&mut work);
     far::drop_far(&mut work);
     let tolerance = merge::tolerance(&work, digits, opening.sew)?;
+    job.check(READING)?;
     merge::close(&mut work, tolerance);
+    job.check(READING)?;
     let merged = work.merged;
     work.note_count(merged, "merged", "duplicate vertices");
     drop_degenerate(&mut work);
@@ -62,15 +66,19 @@ pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening) -> Result<Polygon
         return Err(Error::Surface(no_faces(path, work.points.len())));
     }
     check_area(path, &work)?;
+    job.check(READING)?;
     let count = work.faces.len();
     thin::drop_thin(&mut work, tolerance);
     if work.faces.is_empty() {
         return Err(no_area(path, count));
     }
     stitch::stitch(&mut work, tolerance);
+    job.check(READING)?;
     fins::cut(path, &mut work)?;
     let neighbors = neighbors(&work.faces);
+    job.check(READING)?;
     turn::alike(path, &mut work, &neighbors)?;
+    job.check(READING)?;
     part_at_vertices(&mut work);
     drop_unused(&mut work);
     note_many_sided(&mut work);

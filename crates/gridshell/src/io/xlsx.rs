@@ -2,7 +2,9 @@
 //! row by row as text and packed at once, because a library that keeps every cell takes four times as long and two
 //! gigabytes for ten million of them.
 
+use super::WRITING;
 use super::digest::Quick;
+use crate::job::Job;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::hash::BuildHasherDefault;
@@ -30,8 +32,9 @@ pub(super) enum Cell<'a> {
 }
 
 /// Sheets in their order, as they grow.
-#[derive(Default)]
-pub(super) struct Workbook {
+pub(super) struct Workbook<'a> {
+    /// Once it is over nothing more is put; the caller is to check.
+    job: &'a Job,
     sheets: Vec<Sheet>,
     texts: Texts,
 }
@@ -50,7 +53,12 @@ struct Texts {
     uses: usize,
 }
 
-impl Workbook {
+impl<'a> Workbook<'a> {
+    /// One without sheets.
+    pub(super) fn new(job: &'a Job) -> Workbook<'a> {
+        Workbook { job, sheets: Vec::new(), texts: Texts::default() }
+    }
+
     /// Begin a sheet.
     pub(super) fn sheet(&mut self, name: &'static str) {
         self.sheets.push(Sheet { name, rows: String::new(), count: 0 });
@@ -58,6 +66,10 @@ impl Workbook {
 
     /// Put a row below the others of the latest sheet.
     pub(super) fn row(&mut self, cells: &[Cell]) {
+        // The caller is to check.
+        if self.job.is_over(WRITING) {
+            return;
+        }
         let sheet = self.sheets.last_mut().expect("a sheet was begun");
         sheet.count += 1;
         // Ten million cells are quick without the machinery of formats.
@@ -240,7 +252,8 @@ mod tests {
 
     #[test]
     fn a_text_is_kept_once_and_its_signs_are_escaped() {
-        let mut book = Workbook::default();
+        let job = Job::default();
+        let mut book = Workbook::new(&job);
         book.sheet("A");
         book.row(&[Cell::Text("a<b&c"), Cell::Blank, Cell::Number(0.5)]);
         book.row(&[Cell::Made("a<b&c".into()), Cell::Text("d")]);

@@ -11,7 +11,7 @@ impl<F: Fn(&[DVec2], &mut [DVec2])> Map for F {}
 /// Improve `x` by at most `steps` steps on A x = b; gives the steps made.
 ///
 /// `apply` multiplies by A, `precondition` by something near its inverse, `residual` is b - A x at the start.
-/// Ends when r . M r has fallen to `enough`, which is told the first one.
+/// Ends when r . M r has fallen to `enough`, which is told the first one, or where `go_on` says no.
 pub(crate) fn conjugate_gradients(
     x: &mut [DVec2],
     mut residual: Vec<DVec2>,
@@ -19,6 +19,7 @@ pub(crate) fn conjugate_gradients(
     precondition: impl Map,
     enough: impl Fn(f64) -> f64,
     steps: usize,
+    go_on: impl Fn() -> bool,
 ) -> usize {
     let n = x.len();
     let mut z = vec![DVec2::ZERO; n];
@@ -28,7 +29,7 @@ pub(crate) fn conjugate_gradients(
     let mut rz = product(&residual, &z);
     let enough = enough(rz);
     for step in 0..steps {
-        if rz <= enough {
+        if rz <= enough || !go_on() {
             return step;
         }
         apply(&p, &mut ap);
@@ -88,7 +89,7 @@ mod tests {
         };
         let mut x = [DVec2::ZERO; 2];
         let right = vec![DVec2::splat(1.0), DVec2::splat(2.0)];
-        conjugate_gradients(&mut x, right, apply, precondition, |_| 0.0, 2);
+        conjugate_gradients(&mut x, right, apply, precondition, |_| 0.0, 2, || true);
         assert!((x[0] - 1.0 / 11.0).length() < 1e-14 && (x[1] - 7.0 / 11.0).length() < 1e-14);
     }
 }

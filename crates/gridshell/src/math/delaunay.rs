@@ -2,6 +2,7 @@
 //!
 //! Triangles are sorted into inside and outside by parity across the polygons' edges, not by where they lie.
 
+use crate::job::Job;
 use glam::DVec2;
 use spade::handles::FixedVertexHandle;
 use spade::{
@@ -35,13 +36,16 @@ pub(crate) type Rim = [u32; 2];
 /// are left out.
 ///
 /// # Errors
-/// The point near which polygons cross.
-pub(crate) fn triangles(points: &[DVec2], rims: &[Rim]) -> Result<Vec<[u32; 3]>, usize> {
+/// The point near which polygons cross; any where the job is over, which the caller is to check.
+pub(crate) fn triangles(points: &[DVec2], rims: &[Rim], job: &Job) -> Result<Vec<[u32; 3]>, usize> {
     let mut cdt = Plane::new();
     let bounds = rims.iter().flatten().max().map_or(0, |&last| last as usize + 1);
     let mut handles: Vec<FixedVertexHandle> = Vec::with_capacity(bounds);
     let mut first: Vec<u32> = Vec::with_capacity(points.len());
     for (i, &n) in points[..bounds].iter().enumerate() {
+        if job.is_over("triangulating") {
+            return Err(i);
+        }
         let handle = cdt.insert(site(n)).map_err(|_| i)?;
         if handle.index() == first.len() {
             first.push(i as u32);
@@ -75,6 +79,9 @@ pub(crate) fn triangles(points: &[DVec2], rims: &[Rim]) -> Result<Vec<[u32; 3]>,
             PositionInTriangulation::OnVertex(_) => true,
             _ => false,
         };
+        if job.is_over("triangulating") {
+            return Err(i);
+        }
         if !on_rim {
             cdt.insert(site).map_err(|_| i)?;
             first.push(i as u32);

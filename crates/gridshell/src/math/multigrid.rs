@@ -269,7 +269,15 @@ mod tests {
             let mut x = vec![DVec2::ZERO; n];
             let apply = |v: &[DVec2], y: &mut [DVec2]| multigrid.apply(v, y);
             let cycle = |v: &[DVec2], y: &mut [DVec2]| multigrid.cycle(v, y);
-            let steps = conjugate_gradients(&mut x, right, apply, cycle, |first| 1e-16 * first, 40);
+            let steps = conjugate_gradients(
+                &mut x,
+                right,
+                apply,
+                cycle,
+                |first| 1e-16 * first,
+                40,
+                || true,
+            );
             assert!(steps < 25, "{steps} steps for {n}");
             let mean = x.iter().sum::<DVec2>() / n as f64;
             let off = x.iter().zip(&truth).map(|(a, b)| (*a - mean - *b).length());

@@ -4,7 +4,7 @@
 use super::starts::Start;
 use crate::balance::{self, balance};
 use crate::grid::Grid;
-use crate::job::{Job, Picture};
+use crate::job::Job;
 use crate::merit::Sums;
 use crate::recipe::{Recipe, RegularizeMethod, RelaxMethod};
 use crate::run::CandidateReport;
@@ -73,7 +73,7 @@ pub fn regularize(
             let (mut grid, report) =
                 regularize::regularize(surface, grid.clone(), length, recipe, *seed, &job);
             if searched {
-                settle(surface, &mut grid, recipe);
+                settle(surface, &mut grid, recipe, &job);
             }
             Candidate::new(surface, start, grid, report, length, recipe)
         })
@@ -83,6 +83,9 @@ pub fn regularize(
         return candidates;
     }
     for (heat, &[through, trials]) in recipe.regularize.heats.iter().enumerate() {
+        if job.stopped() {
+            break;
+        }
         let through = through.clamp(1, candidates.len());
         candidates[..through].par_iter_mut().for_each(|c| {
             let seed = starts[c.start].seed.wrapping_add(heat as u64 + 1);
@@ -101,7 +104,7 @@ pub fn regularize(
         rank(&mut candidates);
         let best = &candidates[0];
         let job = job.of_candidate(best.start, spans[heat + 1]);
-        job.progress("regularize", 1.0, Picture::Grid(&best.grid));
+        job.progress("regularize", 1.0, best.grid.picture());
     }
     candidates
 }
@@ -130,13 +133,16 @@ pub fn relax(
     job: &Job,
 ) -> Vec<Winner> {
     let Some(furthest) = candidates.first().map(|c| c.heats) else { return Vec::new() };
+    // Of a job that was stopped nobody waits for the others.
+    let many = if job.stopped() { 1 } else { FINALISTS };
     let finalists: Vec<&Candidate> =
-        candidates.iter().take_while(|c| c.heats == furthest).take(FINALISTS).collect();
+        candidates.iter().take_while(|c| c.heats == furthest).take(many).collect();
     let mut relaxed: Vec<Winner> = finalists
         .into_par_iter()
         .flat_map_iter(|c| {
             let small = c.grid.mesh.vertex_count() <= MOST_WITH_ENDS;
             let several = recipe.relax.method == RelaxMethod::Fluent && c.heats > 0 && small;
+            let several = several && !job.stopped();
             let ends = if several { &ENDS[..] } else { &ENDS[..1] };
             ends.iter().map(move |end| {
                 let mut own = own_recipe(recipe, c.start);
@@ -239,7 +245,7 @@ pub fn table(
     kept.into_iter().chain(left).map(report).collect()
 }
 
-fn settle(surface: &Surface, grid: &mut Grid, recipe: &Recipe) {
+fn settle(surface: &Surface, grid: &mut Grid, recipe: &Recipe, job: &Job) {
     let options = balance::Options {
         straightness: recipe.relax.straightness,
         border: recipe.border_weight(),
@@ -247,5 +253,5 @@ fn settle(surface: &Surface, grid: &mut Grid, recipe: &Recipe) {
         max_steps: TRIAL_STEPS,
         accuracy: 0.05,
     };
-    balance(surface, grid, &options, &Job::default());
+    balance(surface, grid, &options, &job.part_of("regularize"));
 }

@@ -35,6 +35,10 @@ pub use verdict::check as refuse_invalid;
 
 /// Chord error of the carrier over l0. Nodes end on the exact surface; until then they may be this far off.
 const CARRIER_CHORD: f64 = 2e-3;
+/// Memory that a run takes for each node, bytes: less than what was seen, so that nothing is refused that would go.
+const BYTES_A_NODE: f64 = 1500.0;
+/// Of a run that was stopped, larger grids of the stages before the last are not measured: it is to end within a second.
+const MOST_MEASURED_LATE: usize = 20_000;
 /// Nodes of a grid whose edge length nobody gave.
 const SENSIBLE_NODES: usize = 1000;
 
@@ -46,16 +50,17 @@ const SENSIBLE_NODES: usize = 1000;
 /// [`Error::Invalid`] where no valid grid of this edge length exists or was found.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
-    parts::generate(&*smoothed(model, recipe)?, recipe, job)
+    parts::generate(&*smoothed(model, recipe, job)?, recipe, job)
 }
 
 /// Lay a grid on a model of one part; the surface that it was laid on is given too.
 fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
-    let Scale { length, nodes } = scale(model, recipe)?;
-    let make = |l: f64| model.surface(&sampling(l, nodes, recipe));
-    let (surface, mut fixed) = wishes::surface(recipe, length, make)?;
+    let Scale { length, nodes } = scale(model, recipe, job)?;
+    job.reserve(nodes * BYTES_A_NODE, &format!("a grid of about {nodes:.0} nodes"))?;
+    let make = |l: f64| model.surface(&sampling(l, nodes, recipe), job);
+    let (surface, mut fixed) = wishes::surface(recipe, length, make, job)?;
     let size = Scale { length, nodes };
-    if let Some(group) = symmetry::group(&surface, model, recipe, length)? {
+    if let Some(group) = symmetry::group(&surface, model, recipe, length, job)? {
         let run = symmetry::generate(model, &surface, &group, recipe, &size, fixed, job)?;
         return Ok((run, surface));
     }
@@ -70,16 +75,16 @@ fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
 ///
 /// # Errors
 /// As [`generate`].
-pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
+pub fn surface(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Surface, f64)> {
     recipe.validate()?;
-    parts::surface(&*smoothed(model, recipe)?, recipe)
+    parts::surface(&*smoothed(model, recipe, job)?, recipe, job)
 }
 
 /// The surface of a model of one part, and the wanted member length in metres.
-fn whole(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
-    let Scale { length, nodes } = scale(model, recipe)?;
-    let (surface, _) =
-        wishes::surface(recipe, length, |l| model.surface(&sampling(l, nodes, recipe)))?;
+fn whole(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Surface, f64)> {
+    let Scale { length, nodes } = scale(model, recipe, job)?;
+    let make = |l: f64| model.surface(&sampling(l, nodes, recipe), job);
+    let (surface, _) = wishes::surface(recipe, length, make, job)?;
     Ok((surface, length))
 }
 
@@ -95,6 +100,10 @@ fn lay(
     let budget = effort::budgeted(recipe, nodes);
     let mut stages = Vec::new();
     let judge = |grid: &Grid| measure(grid, surface, length, &recipe.measure);
+    let judge_on_the_way = |grid: &Grid| {
+        let skipped = job.stopped() && grid.xyz.len() > MOST_MEASURED_LATE;
+        (!skipped).then(|| judge(grid))
+    };
 
     let clock = Instant::now();
     let Starts { starts, notes } = starts::starts(surface, length, &budget, job)?;
@@ -105,7 +114,7 @@ fn lay(
         .par_iter()
         .map(|start| match &start.grid {
             Some(connected) => Ok(connected.clone()),
-            None => triangulate::triangulate(surface, &start.bubbles),
+            None => triangulate::triangulate(surface, &start.bubbles, job),
         })
         .collect::<Result<_>>()?;
     let triangulated_in = clock.elapsed().as_secs_f64();
@@ -128,12 +137,12 @@ fn lay(
     let mut warnings = fixed;
     warnings.extend(self::warnings(surface, bubbles.len(), report));
     // Bubbles have no members yet: what is measured, as in the paper's Table 3, is their Delaunay grid.
-    let packed_quality = judge(grid);
+    let packed_quality = judge_on_the_way(grid);
     stages.push(StageReport {
         name: "pack",
         seconds: packed,
         converged: settled.is_none_or(|r| r.converged),
-        quality: Some(packed_quality.clone()),
+        quality: packed_quality.clone(),
         notes,
         grid: Some(exact(grid.clone(), surface)),
     });
@@ -141,7 +150,7 @@ fn lay(
         name: "triangulate",
         seconds: triangulated_in,
         converged: !report.work.cut_short,
-        quality: Some(packed_quality),
+        quality: packed_quality,
         notes: report.work.note().into_iter().collect(),
         grid: Some(exact(grid.clone(), surface)),
     });
@@ -149,7 +158,7 @@ fn lay(
         name: "regularize",
         seconds: regularized_in,
         converged: winner.regularized.converged,
-        quality: Some(judge(&winner.before)),
+        quality: judge_on_the_way(&winner.before),
         notes: vec![winner.regularized.to_string()],
         grid: Some(exact(winner.before, surface)),
     });
@@ -256,8 +265,8 @@ fn sampling(length: f64, nodes: f64, recipe: &Recipe) -> Sampling {
 /// # Errors
 /// [`Error::Option`] as [`Recipe::check_edge_length`], [`Error::Surface`] as
 /// [`Model::surface`].
-pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
-    Ok(scale(model, recipe)?.length)
+pub fn edge_length(model: &Model, recipe: &Recipe, job: &Job) -> Result<f64> {
+    Ok(scale(model, recipe, job)?.length)
 }
 
 /// How large a grid is.
@@ -268,8 +277,8 @@ struct Scale {
     nodes: f64,
 }
 
-fn scale(model: &Model, recipe: &Recipe) -> Result<Scale> {
-    scale_on(model.surface(&rough(model.size(), recipe))?, recipe)
+fn scale(model: &Model, recipe: &Recipe, job: &Job) -> Result<Scale> {
+    scale_on(model.surface(&rough(model.size(), recipe), job)?, recipe)
 }
 
 /// The sampling that areas and lengths are estimated with, for a model of this size.

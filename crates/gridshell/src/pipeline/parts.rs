@@ -39,45 +39,48 @@ pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
         }
         Parts::All if parts.len() > MOST_LAID => Err(too_many(&parts)),
         Parts::All if parts.len() > 1 => all(model, &parts, recipe, job),
-        Parts::One if parts.len() > 1 => Err(Error::Surface(choice(model, &parts))),
+        Parts::One if parts.len() > 1 => Err(choice(model, &parts, job)),
         Parts::One | Parts::All => Ok(single(model, recipe, job)?.0),
     }
 }
 
 /// What to choose from.
-fn choice(model: &Model, parts: &[Vec<u32>]) -> String {
+fn choice(model: &Model, parts: &[Vec<u32>], job: &Job) -> Error {
     let rough = rough(model.size(), &Recipe::default());
     let mut text = format!(
         "there are {} separate parts: choose one (--part N), or all for one grid of several pieces (--part all)",
         parts.len()
     );
     for (number, faces) in (1..).zip(parts.iter().take(MOST_TOLD)) {
-        let surface = model.of_faces(faces).surface(&rough);
+        let surface = model.of_faces(faces).surface(&rough, job);
+        if let Err(stopped) = job.check("telling the parts") {
+            return stopped;
+        }
         let summary = PartSummary::new(number, faces, model, surface.as_ref());
         text += &format!("\n  part {}", summary.told());
     }
     if parts.len() > MOST_TOLD {
         text += &format!("\n  and {} more", parts.len() - MOST_TOLD);
     }
-    text
+    Error::Surface(text)
 }
 
 /// The surface that [`generate`] lays its grid on, and the wanted member length in metres.
 ///
 /// # Errors
 /// As [`generate`].
-pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
+pub fn surface(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Surface, f64)> {
     let parts = model.parts();
     match recipe.part {
-        Parts::Number(n) => whole(&model.of_faces(numbered(&parts, n)?), recipe),
+        Parts::Number(n) => whole(&model.of_faces(numbered(&parts, n)?), recipe, job),
         Parts::All if parts.len() > MOST_LAID => Err(too_many(&parts)),
         Parts::All if parts.len() > 1 => {
-            let pieces = Pieces::new(model, &parts, recipe)?;
-            let surfaces = pieces.each(|part, recipe| Ok(whole(part, recipe)?.0))?;
+            let pieces = Pieces::new(model, &parts, recipe, job)?;
+            let surfaces = pieces.each(|part, recipe| Ok(whole(part, recipe, job)?.0))?;
             Ok((Surface::side_by_side(surfaces).0, pieces.length))
         }
-        Parts::One if parts.len() > 1 => Err(Error::Surface(choice(model, &parts))),
-        Parts::One | Parts::All => whole(model, recipe),
+        Parts::One if parts.len() > 1 => Err(choice(model, &parts, job)),
+        Parts::One | Parts::All => whole(model, recipe, job),
     }
 }
 
@@ -85,14 +88,14 @@ pub fn surface(model: &Model, recipe: &Recipe) -> Result<(Surface, f64)> {
 ///
 /// # Errors
 /// As [`generate`].
-pub fn edge_length(model: &Model, recipe: &Recipe) -> Result<f64> {
+pub fn edge_length(model: &Model, recipe: &Recipe, job: &Job) -> Result<f64> {
     let parts = model.parts();
     match recipe.part {
-        Parts::Number(n) => super::edge_length(&model.of_faces(numbered(&parts, n)?), recipe),
+        Parts::Number(n) => super::edge_length(&model.of_faces(numbered(&parts, n)?), recipe, job),
         Parts::All if parts.len() > MOST_LAID => Err(too_many(&parts)),
-        Parts::All if parts.len() > 1 => Ok(Pieces::new(model, &parts, recipe)?.length),
-        Parts::One if parts.len() > 1 => Err(Error::Surface(choice(model, &parts))),
-        Parts::One | Parts::All => super::edge_length(model, recipe),
+        Parts::All if parts.len() > 1 => Ok(Pieces::new(model, &parts, recipe, job)?.length),
+        Parts::One if parts.len() > 1 => Err(choice(model, &parts, job)),
+        Parts::One | Parts::All => super::edge_length(model, recipe, job),
     }
 }
 
@@ -113,7 +116,7 @@ fn too_many(parts: &[Vec<u32>]) -> Error {
 
 /// One grid with a piece on each part.
 fn all(model: &Model, parts: &[Vec<u32>], recipe: &Recipe, job: &Job) -> Result<Run> {
-    let pieces = Pieces::new(model, parts, recipe)?;
+    let pieces = Pieces::new(model, parts, recipe, job)?;
     let laid = pieces.each(|part, recipe| single(part, recipe, job))?;
     let (runs, surfaces) = laid.into_iter().unzip();
     let (surface, offsets) = Surface::side_by_side(surfaces);
@@ -129,12 +132,12 @@ struct Pieces {
 }
 
 impl Pieces {
-    fn new(model: &Model, parts: &[Vec<u32>], recipe: &Recipe) -> Result<Pieces> {
+    fn new(model: &Model, parts: &[Vec<u32>], recipe: &Recipe, job: &Job) -> Result<Pieces> {
         let models: Vec<Model> = parts.iter().map(|faces| model.of_faces(faces)).collect();
         let sampling = rough(model.size(), recipe);
         let surfaces = models.iter().enumerate();
         let surfaces =
-            surfaces.map(|(k, part)| part.surface(&sampling).map_err(|e| of_part(k + 1, e)));
+            surfaces.map(|(k, part)| part.surface(&sampling, job).map_err(|e| of_part(k + 1, e)));
         let side_by_side = Surface::side_by_side(surfaces.collect::<Result<_>>()?).0;
         let Scale { length, .. } = scale_on(side_by_side, recipe)?;
         let mut part_recipe = Recipe { part: Parts::One, ..recipe.clone() };
@@ -143,7 +146,7 @@ impl Pieces {
         if given || !matches!(recipe.size, Size::Points { .. }) {
             (part_recipe.edge_length, part_recipe.nodes) = (Some(length), None);
         }
-        let owners = Owners::new(&models, recipe, length)?;
+        let owners = Owners::new(&models, recipe, length, job)?;
         let recipes = (0..models.len()).map(|k| owners.recipe(k, &part_recipe)).collect();
         Ok(Pieces { models, recipes, length })
     }
@@ -177,13 +180,13 @@ struct Owners {
 }
 
 impl Owners {
-    fn new(models: &[Model], recipe: &Recipe, length: f64) -> Result<Owners> {
+    fn new(models: &[Model], recipe: &Recipe, length: f64, job: &Job) -> Result<Owners> {
         if recipe.guides.is_empty() && recipe.anchors.is_empty() {
             return Ok(Owners { guides: Vec::new(), anchors: Vec::new() });
         }
         let sampling = Sampling { max_edge: length, chord_error: 0.1 * length, corner_angle: 1.0 };
         let surfaces: Vec<Surface> =
-            models.iter().map(|m| m.surface(&sampling)).collect::<Result<_>>()?;
+            models.iter().map(|m| m.surface(&sampling, job)).collect::<Result<_>>()?;
         let locators: Vec<Locator> = surfaces.iter().map(Locator::new).collect();
         let nearest = |p: [f64; 3]| {
             let p = DVec3::from(p);
@@ -287,6 +290,7 @@ fn stage(
         None => None,
     };
     let options = &runs[0].recipe.measure;
+    let quality = grid.as_ref().map(|grid| measure(grid, surface, length, options));
     let notes = (1..).zip(&stages).flat_map(|(number, stage)| {
         stage.notes.iter().map(move |note| format!("part {number}: {note}"))
     });
@@ -294,7 +298,7 @@ fn stage(
         name: stages[0].name,
         seconds: stages.iter().map(|stage| stage.seconds).sum(),
         converged: stages.iter().all(|stage| stage.converged),
-        quality: grid.as_ref().map(|grid| measure(grid, surface, length, options)),
+        quality,
         notes: notes.collect(),
         grid,
     })

@@ -2,6 +2,7 @@
 
 use super::{CARRIER_CHORD, parts};
 use crate::error::Result;
+use crate::job::Job;
 use crate::recipe::Recipe;
 use crate::surface::{Model, PolygonMesh, Smooth};
 use std::borrow::Cow;
@@ -15,7 +16,7 @@ const CHORD: f64 = 0.5;
 ///
 /// # Errors
 /// [`Error::Surface`](crate::Error::Surface) as [`super::generate`], and where smoothing takes too many triangles.
-pub fn smoothed<'a>(model: &'a Model, recipe: &Recipe) -> Result<Cow<'a, Model>> {
+pub fn smoothed<'a>(model: &'a Model, recipe: &Recipe, job: &Job) -> Result<Cow<'a, Model>> {
     if !recipe.smooth_input {
         return Ok(Cow::Borrowed(model));
     }
@@ -29,12 +30,12 @@ pub fn smoothed<'a>(model: &'a Model, recipe: &Recipe) -> Result<Cow<'a, Model>>
         Model::Mesh(mesh) if mesh.smoothing.is_some() => return Ok(Cow::Borrowed(model)),
         Model::Mesh(mesh) => mesh,
     };
-    let length = parts::edge_length(model, recipe)?;
-    Ok(Cow::Owned(Model::Mesh(smooth(mesh, length, recipe)?)))
+    let length = parts::edge_length(model, recipe, job)?;
+    Ok(Cow::Owned(Model::Mesh(smooth(mesh, length, recipe, job)?)))
 }
 
 /// The mesh for members of `length` metres, with a note of what was done.
-fn smooth(mesh: &PolygonMesh, length: f64, recipe: &Recipe) -> Result<PolygonMesh> {
+fn smooth(mesh: &PolygonMesh, length: f64, recipe: &Recipe, job: &Job) -> Result<PolygonMesh> {
     let (coarse, longest) = (COARSE * length, mesh.longest_edge());
     let mut smooth = mesh.clone();
     if longest <= coarse {
@@ -43,12 +44,15 @@ fn smooth(mesh: &PolygonMesh, length: f64, recipe: &Recipe) -> Result<PolygonMes
         ));
         return Ok(smooth);
     }
-    smooth = mesh.smoothed(&Smooth {
-        coarse,
-        chord_error: CHORD * CARRIER_CHORD * length,
-        corner_angle: recipe.corner_angle_deg.to_radians(),
-        crease_angle: recipe.feature_angle_deg.to_radians(),
-    })?;
+    smooth = mesh.smoothed(
+        &Smooth {
+            coarse,
+            chord_error: CHORD * CARRIER_CHORD * length,
+            corner_angle: recipe.corner_angle_deg.to_radians(),
+            crease_angle: recipe.feature_angle_deg.to_radians(),
+        },
+        job,
+    )?;
     let departure = smooth.smoothing.map_or(0.0, |s| s.departure);
     smooth.notes.push(format!(
         "smoothed the mesh, whose edges are up to {longest:.3} m long: the smooth surface goes through its vertices \
@@ -60,7 +64,6 @@ fn smooth(mesh: &PolygonMesh, length: f64, recipe: &Recipe) -> Result<PolygonMes
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::job::Job;
     use crate::pipeline;
     use crate::recipe::Effort;
     use crate::surface::builtin;
@@ -95,14 +98,20 @@ mod tests {
     #[test]
     fn what_is_fine_or_of_patches_stays_and_is_told() {
         let bowl = bowl();
-        let fine = smoothed(&bowl, &recipe(2.2)).unwrap();
+        let fine = smoothed(&bowl, &recipe(2.2), &Job::default()).unwrap();
         assert_eq!(fine.face_count(), 16);
         assert!(fine.notes()[0].contains("no edge of the mesh is longer than 1.100 m"));
-        let smooth = smoothed(&bowl, &recipe(0.4)).unwrap();
-        assert!(matches!(smoothed(&smooth, &recipe(0.4)).unwrap(), Cow::Borrowed(_)));
+        let smooth = smoothed(&bowl, &recipe(0.4), &Job::default()).unwrap();
+        assert!(matches!(
+            smoothed(&smooth, &recipe(0.4), &Job::default()).unwrap(),
+            Cow::Borrowed(_)
+        ));
         let patches = builtin::model("hexagon").unwrap();
-        let same = smoothed(&patches, &recipe(1.0)).unwrap();
+        let same = smoothed(&patches, &recipe(1.0), &Job::default()).unwrap();
         assert!(same.notes().iter().any(|n| n.contains("of patches, not a mesh")));
-        assert!(matches!(smoothed(&bowl, &Recipe::default()).unwrap(), Cow::Borrowed(_)));
+        assert!(matches!(
+            smoothed(&bowl, &Recipe::default(), &Job::default()).unwrap(),
+            Cow::Borrowed(_)
+        ));
     }
 }

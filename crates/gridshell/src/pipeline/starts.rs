@@ -57,7 +57,7 @@ const STRAINED: f64 = 0.03;
 /// The starts that the recipe asks for; bubbles where a lattice is wanted but the surface has no chart.
 pub fn starts(surface: &Surface, length: f64, recipe: &Recipe, job: &Job) -> Result<Starts> {
     if recipe.pack.start == recipe::Start::Lattice
-        && let Some(chart) = Chart::flatten(surface)
+        && let Some(chart) = Chart::flatten(surface, job)?
     {
         return lattices(surface, &chart, length, recipe, job);
     }
@@ -94,7 +94,7 @@ fn packing(surface: &Surface, length: f64, recipe: &Recipe, seed: u64, job: &Job
     let (held, rim) = (bubbles.held() - bubbles.boundary.len(), bubbles.boundary.len());
     let count = pack::interior_count(surface, rim, length, recipe.pack.k_n);
     let (count, xyz) = (count.saturating_sub(held), bubbles.xyz(surface));
-    bubbles.interior = pack::scatter(surface, count, &xyz, CLEAR * length, &mut rng);
+    bubbles.interior = pack::scatter(surface, count, &xyz, CLEAR * length, &mut rng, job);
     let report = pack::settle(surface, &mut bubbles, length, &recipe.pack, job);
     Start { bubbles, seed, report: Some(report), grid: None }
 }
@@ -144,8 +144,8 @@ fn lattices(
                 lattice.angle = chart.border_direction(&surface.loops, rng.f64());
             }
             let bubbles =
-                lattice.bubbles(surface, chart, length, recipe.pack.k_n, recipe.row_angle());
-            let start = connect(surface, chart, &bubbles)?;
+                lattice.bubbles(surface, chart, length, recipe.pack.k_n, recipe.row_angle(), job);
+            let start = connect(surface, chart, &bubbles, job)?;
             let mut grid = start.0.clone();
             let span = [k, k + 1].map(|k| k as f64 / draws as f64);
             balance(surface, &mut grid, &trial, &job.of_candidate(0, span).part_of("pack"));
@@ -177,15 +177,16 @@ fn connect(
     surface: &Surface,
     chart: &Chart,
     bubbles: &Bubbles,
+    job: &Job,
 ) -> Result<(Grid, triangulate::Report)> {
     let quick = if chart.upright {
-        triangulate::triangulate_in_chart(surface, chart, bubbles)
+        triangulate::triangulate_in_chart(surface, chart, bubbles, job)
     } else {
         None
     };
     match quick {
         Some(grid) => Ok((grid, triangulate::Report::default())),
-        None => triangulate::triangulate(surface, bubbles),
+        None => triangulate::triangulate(surface, bubbles, job),
     }
 }
 

@@ -28,6 +28,8 @@ const OFF_SIZE: f64 = 1e-6;
 const OFF_LENGTH: f64 = 1e-3;
 /// Nodes nearer than this, over l0, are one.
 const SAME: f64 = 1e-3;
+/// What a stop in here is told as.
+const PHASE: &str = "looking for symmetries";
 /// Rounds of putting a node on the surface and on its plane.
 const ROUNDS: usize = 3;
 
@@ -40,21 +42,24 @@ pub fn group(
     model: &Model,
     recipe: &Recipe,
     length: f64,
+    job: &Job,
 ) -> Result<Option<Group>> {
     if recipe.symmetry == Symmetry::None {
         return Ok(None);
     }
     let tolerance = (OFF_SIZE * model.size()).max(OFF_LENGTH * length);
-    let symmetries = Symmetries::new(surface, tolerance);
+    let symmetries = Symmetries::new(surface, tolerance, job);
     let found = match recipe.symmetry {
         Symmetry::None => return Ok(None),
-        Symmetry::Auto => return Ok(symmetries.largest()),
-        Symmetry::X => symmetries.mirror(DVec2::Y),
-        Symmetry::Y => symmetries.mirror(DVec2::X),
-        Symmetry::Xy => symmetries.both_mirrors(),
-        Symmetry::Turns(n) => symmetries.turns(n),
+        Symmetry::Auto => Ok(symmetries.largest()),
+        Symmetry::X => symmetries.mirror(DVec2::Y).map(Some),
+        Symmetry::Y => symmetries.mirror(DVec2::X).map(Some),
+        Symmetry::Xy => symmetries.both_mirrors().map(Some),
+        Symmetry::Turns(n) => symmetries.turns(n).map(Some),
     };
-    found.map(Some).map_err(|Miss { distance, point: p, image }| {
+    // What was not looked at to the end is neither a symmetry nor none.
+    job.check(PHASE)?;
+    found.map_err(|Miss { distance, point: p, image }| {
         let at = |p: DVec3| format!("({:.3}, {:.3}, {:.3})", p.x, p.y, p.z);
         Error::Option(format!(
             "the surface does not have the symmetry {}: the image {} of its point {} is {distance:.3} m off it; \
@@ -80,21 +85,27 @@ pub fn generate(
     job: &Job,
 ) -> Result<Run> {
     let (length, corner_angle) = (scale.length, recipe.corner_angle_deg.to_radians());
-    let wedge = wedge(surface, group, length);
+    let wedge = wedge(surface, group, length, job)?;
     let make = |l: f64| -> Result<Part> {
-        model.surface(&sampling(l, scale.nodes, recipe))?.part(
+        model.surface(&sampling(l, scale.nodes, recipe), job)?.part(
             &wedge,
             group.order(),
             length,
             corner_angle,
+            job,
         )
     };
     let on = std::cell::RefCell::new(Vec::new());
-    let (part, _) = wishes::surface(recipe, length, |l| {
-        let part = make(l)?;
-        on.replace(part.on);
-        Ok(part.surface)
-    })?;
+    let (part, _) = wishes::surface(
+        recipe,
+        length,
+        |l| {
+            let part = make(l)?;
+            on.replace(part.on);
+            Ok(part.surface)
+        },
+        job,
+    )?;
     let part = Part { surface: part, on: on.into_inner() };
     let nodes = nodes_for(&part.surface, length);
     // The verdict is on the whole.
@@ -167,12 +178,13 @@ pub fn generate(
 }
 
 /// The wedge of which all others are images.
-fn wedge(surface: &Surface, group: &Group, length: f64) -> Wedge {
-    let first = Symmetries::new(surface, OFF_LENGTH * length).cut(group);
+fn wedge(surface: &Surface, group: &Group, length: f64, job: &Job) -> Result<Wedge> {
+    let first = Symmetries::new(surface, OFF_LENGTH * length, job).cut(group);
+    job.check(PHASE)?;
     let sectors = if group.mirror.is_some() { 2 * group.turns } else { group.turns };
     let turn = group.mirror.is_none().then(|| Motion::turn(group.centre, 1, group.turns));
     let second = Motion::turn(DVec2::ZERO, 1, sectors).image(first.extend(0.0)).truncate();
-    Wedge { centre: group.centre, rays: [first, second], turn }
+    Ok(Wedge { centre: group.centre, rays: [first, second], turn })
 }
 
 /// Joins grids of the part to grids of the whole surface.

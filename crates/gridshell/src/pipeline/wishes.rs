@@ -1,6 +1,7 @@
 //! What the recipe fixes, and its varying lengths and directions, laid on a surface.
 
 use crate::error::Result;
+use crate::job::Job;
 use crate::recipe::{Direction, Recipe, Size};
 use crate::surface::{Fixtures, Surface, grading};
 use glam::DVec3;
@@ -17,14 +18,15 @@ pub fn surface(
     recipe: &Recipe,
     length: f64,
     make: impl Fn(f64) -> Result<Surface>,
+    job: &Job,
 ) -> Result<(Surface, Vec<String>)> {
     let mut surface = make(length)?;
-    let mut told = fix(&mut surface, length, recipe)?;
+    let mut told = fix(&mut surface, length, recipe, job)?;
     grade(&mut surface, recipe, Some(length));
     let least = surface.scale.iter().copied().fold(1.0, f64::min);
     if least < SHORT {
         surface = make(length * least.max(SHORTEST))?;
-        told = fix(&mut surface, length, recipe)?;
+        told = fix(&mut surface, length, recipe, job)?;
         grade(&mut surface, recipe, Some(length));
     }
     direct(&mut surface, &recipe.direction);
@@ -32,18 +34,19 @@ pub fn surface(
 }
 
 /// Fix what the recipe asks for; gives what the user should know of it.
-fn fix(surface: &mut Surface, length: f64, recipe: &Recipe) -> Result<Vec<String>> {
+fn fix(surface: &mut Surface, length: f64, recipe: &Recipe, job: &Job) -> Result<Vec<String>> {
     let guides: Vec<Vec<DVec3>> =
         recipe.guides.iter().map(|g| g.iter().map(|&p| p.into()).collect()).collect();
     let anchors: Vec<DVec3> = recipe.anchors.iter().map(|&p| p.into()).collect();
     let (anchors, shared) = surface.apart(&anchors, length);
-    let mut told = surface.fix(&Fixtures {
+    let wanted = Fixtures {
         crease_angle: Some(recipe.feature_angle_deg.to_radians()).filter(|&a| a < PI),
         guides: &guides,
         anchors: &anchors,
         corner_angle: recipe.corner_angle_deg.to_radians(),
         edge_length: length,
-    })?;
+    };
+    let mut told = surface.fix(&wanted, job)?;
     told.extend(shared);
     Ok(told)
 }

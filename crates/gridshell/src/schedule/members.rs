@@ -1,7 +1,9 @@
 //! Members: ends, length, local axis, twist, fold.
 
+use super::PHASE;
 use super::nodes::Nodes;
 use crate::grid::{Grid, Place};
+use crate::job::Job;
 use crate::math::trig;
 use crate::surface::Surface;
 use glam::DVec3;
@@ -33,14 +35,14 @@ pub struct Members {
 }
 
 impl Members {
-    /// The members of `grid`, without groups and bends.
-    pub(super) fn new(grid: &Grid, surface: &Surface) -> Members {
+    /// The members of `grid`, without groups and bends; of no use where the job is over.
+    pub(super) fn new(grid: &Grid, surface: &Surface, job: &Job) -> Members {
         let mesh = &grid.mesh;
         let mut ends: Vec<[u32; 2]> = mesh.edges().map(|(a, b)| [a, b]).collect();
         ends.sort_unstable();
         let normals: Vec<DVec3> = grid.places.iter().map(|p: &Place| p.normal(surface)).collect();
         let mut members = Members { ends, ..Members::default() };
-        for &[a, b] in &members.ends {
+        for &[a, b] in members.ends.iter().take_while(|_| !job.is_over(PHASE)) {
             let along = grid.xyz[b as usize] - grid.xyz[a as usize];
             let x = along.normalize_or_zero();
             let at_ends = [a, b].map(|v| square_to(x, normals[v as usize]));

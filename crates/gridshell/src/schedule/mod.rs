@@ -19,10 +19,14 @@ pub use members::Members;
 pub use nodes::Nodes;
 pub use panels::Panels;
 
+use crate::error::Result;
 use crate::grid::Grid;
+use crate::job::{Job, Picture};
 use crate::recipe;
 use crate::surface::Surface;
 
+/// What a stop in here is told as.
+const PHASE: &str = "measuring";
 /// The length tolerance, where none is given, over the mean member length.
 const TOLERANCE: f64 = 1.0 / 200.0;
 
@@ -63,13 +67,38 @@ pub struct Schedule {
 impl Schedule {
     /// The schedules of `grid` on `surface`.
     pub fn new(grid: &Grid, surface: &Surface, tolerances: &Tolerances) -> Schedule {
-        let mut members = Members::new(grid, surface);
+        Schedule::looked_at(grid, surface, tolerances, &Job::default())
+    }
+
+    /// The same, as long as the job goes on.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped) where it is over.
+    pub fn within(
+        grid: &Grid,
+        surface: &Surface,
+        tolerances: &Tolerances,
+        job: &Job,
+    ) -> Result<Schedule> {
+        job.check(PHASE)?;
+        job.progress("measure", 0.5, Picture::None);
+        let schedule = Schedule::looked_at(grid, surface, tolerances, job);
+        job.check(PHASE)?;
+        Ok(schedule)
+    }
+
+    /// The schedules; of no use where the job is over.
+    fn looked_at(grid: &Grid, surface: &Surface, tolerances: &Tolerances, job: &Job) -> Schedule {
+        let mut members = Members::new(grid, surface, job);
+        if job.is_over(PHASE) {
+            return Schedule::default();
+        }
         let count = members.length.len().max(1) as f64;
         let mean = members.length.iter().sum::<f64>() / count;
         let length_tolerance = tolerances.length.unwrap_or(TOLERANCE * mean);
         members.group = groups_within(&members.length, length_tolerance);
         let panels = Panels::new(grid, &members);
-        let nodes = Nodes::new(grid, surface, tolerances.angle_deg);
+        let nodes = Nodes::new(grid, surface, tolerances.angle_deg, job);
         members.take_bend(&nodes);
         let figures =
             Figures::new(&nodes, &members, &panels, length_tolerance, tolerances.angle_deg);

@@ -1,12 +1,15 @@
 //! Nodes: place, normal, degree, angles, kinds.
 
+use super::PHASE;
 use super::group::{groups_of, groups_within, turned_to_least};
 use crate::degree::{REGULAR, adjusted_degree};
-use crate::grid::Grid;
+use crate::grid::{Grid, Place};
+use crate::job::Job;
 use crate::math::trig;
 use crate::merit;
 use crate::surface::Surface;
 use glam::DVec3;
+use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The nodes of a grid.
@@ -38,8 +41,8 @@ pub struct Nodes {
 }
 
 impl Nodes {
-    /// The nodes of `grid`, alike where angles differ by at most `tolerance_deg`.
-    pub(super) fn new(grid: &Grid, surface: &Surface, tolerance_deg: f64) -> Nodes {
+    /// The nodes of `grid`, alike where angles differ by at most `tolerance_deg`; of no use where the job is over.
+    pub(super) fn new(grid: &Grid, surface: &Surface, tolerance_deg: f64, job: &Job) -> Nodes {
         let mesh = &grid.mesh;
         let normal: Vec<DVec3> = grid.places.iter().map(|p| p.normal(surface)).collect();
         let mut nodes = Nodes { xyz: grid.xyz.clone(), ..Nodes::default() };
@@ -65,9 +68,12 @@ impl Nodes {
                 .push(smooth.then(|| curvature_bend(grid, &normal, v).to_degrees()));
             let whole = if boundary { PI } else { TAU };
             nodes.defect_deg.push((whole - angles.iter().sum::<f64>()).to_degrees());
-            nodes.off_surface.push(grid.places[v as usize].off_surface(surface, at));
         }
         nodes.normal = normal;
+        let off = |(place, at): (&Place, &DVec3)| {
+            if job.is_over(PHASE) { 0.0 } else { place.off_surface(surface, *at) }
+        };
+        nodes.off_surface = grid.places.par_iter().zip(&grid.xyz).map(off).collect();
         nodes.group = kinds(grid, &nodes.normal, tolerance_deg.to_radians());
         nodes
     }

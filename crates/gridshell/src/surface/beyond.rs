@@ -101,12 +101,16 @@ impl Surface {
 
 #[cfg(test)]
 mod tests {
+    use crate::job::Job;
     use crate::surface::{Locator, Sampling, Surface, builtin};
     use glam::DVec3;
 
     fn surface(name: &str, l0: f64) -> Surface {
         let sampling = Sampling { max_edge: 0.5 * l0, chord_error: 2e-3 * l0, corner_angle: 0.5 };
-        builtin::model(name).expect("built in").surface(&sampling).expect("a surface")
+        builtin::model(name)
+            .expect("built in")
+            .surface(&sampling, &Job::default())
+            .expect("a surface")
     }
 
     fn off(surface: &Surface, p: DVec3) -> f64 {

@@ -7,6 +7,8 @@
 //! still overlap itself (a spiral does), which a lattice does not mind.
 
 use super::{Carrier, Chain, ChainPoint, Surface, SurfacePoint};
+use crate::error::Result;
+use crate::job::{Job, Picture};
 use crate::math::conjugate::{conjugate_gradients, product};
 use crate::math::frame::tangents;
 use crate::math::multigrid::Multigrid;
@@ -14,6 +16,8 @@ use crate::math::sparse::{Row, Sparse};
 use crate::math::trig::{atan2, cos, sin};
 use glam::{DMat2, DVec2, DVec3};
 
+/// What a stop in here is told as.
+const FLATTENING: &str = "flattening the surface";
 /// Local/global steps from a projection, and from Tutte's embedding, which is farther off.
 const STEPS: [usize; 2] = [16, 60];
 /// Conjugate-gradient steps in each at most, from where the last one ended; a dozen is usual.
@@ -39,26 +43,27 @@ pub struct Chart {
 impl Chart {
     /// Flatten a surface, as its scale shrinks and stretches it where lengths are to vary; None where that makes no
     /// sense: closed, not connected, or with handles.
-    pub fn flatten(surface: &Surface) -> Option<Chart> {
+    pub fn flatten(surface: &Surface, job: &Job) -> Result<Option<Chart>> {
         let (carrier, loops) = (&surface.carrier, &surface.loops);
         // chi = 2 - 2 genus - loops for one piece.
         if loops.is_empty()
             || surface.euler_characteristic() != 2 - loops.len() as i64
             || !is_connected(carrier)
         {
-            return None;
+            return Ok(None);
         }
         let (uv, steps) = match projection(carrier) {
             Some(uv) if surface.scale.is_empty() => (uv, STEPS[0]),
             Some(uv) => (uv, STEPS[1]),
-            None => (tutte(carrier, loops), STEPS[1]),
+            None => (tutte(carrier, loops, job), STEPS[1]),
         };
-        let mut chart = Chart { uv: as_rigid_as_possible(surface, uv, steps), upright: true };
+        let mut chart = Chart { uv: as_rigid_as_possible(surface, uv, steps, job), upright: true };
         chart.upright = (0..carrier.triangles.len()).all(|t| {
             let [p, q, r] = chart.corners(carrier, t);
             (q - p).perp_dot(r - p) > 0.0
         });
-        Some(chart)
+        job.check(FLATTENING)?;
+        Ok(Some(chart))
     }
 
     /// How much the chart stretches and shrinks: root mean square of (length in the chart / on the surface - 1).
@@ -155,7 +160,7 @@ fn projection(carrier: &Carrier) -> Option<Vec<DVec2>> {
 }
 
 /// Tutte's embedding: every inner vertex in the middle of its neighbours.
-fn tutte(carrier: &Carrier, loops: &[Chain]) -> Vec<DVec2> {
+fn tutte(carrier: &Carrier, loops: &[Chain], job: &Job) -> Vec<DVec2> {
     let n = carrier.points.len();
     let hubs = loops.len() - 1;
     let outer = (0..loops.len())
@@ -190,7 +195,7 @@ fn tutte(carrier: &Carrier, loops: &[Chain]) -> Vec<DVec2> {
             right[i as usize] += uv[known as usize] * w;
         }
     }
-    solve(&laplacian(n + hubs, &entries, &fixed), &right, &mut uv, 1e-7);
+    solve(&laplacian(n + hubs, &entries, &fixed), &right, &mut uv, 1e-7, job);
     uv.truncate(n);
     uv
 }
@@ -198,7 +203,12 @@ fn tutte(carrier: &Carrier, loops: &[Chain]) -> Vec<DVec2> {
 /// A triangle laid flat: edge vectors k -> k + 1 in its own plane, and their cotangent weights.
 type Flat = [(DVec2, f64); 3];
 
-fn as_rigid_as_possible(surface: &Surface, mut uv: Vec<DVec2>, steps: usize) -> Vec<DVec2> {
+fn as_rigid_as_possible(
+    surface: &Surface,
+    mut uv: Vec<DVec2>,
+    steps: usize,
+    job: &Job,
+) -> Vec<DVec2> {
     let carrier = &surface.carrier;
     let flat: Vec<Flat> = (0..carrier.triangles.len())
         .map(|t| lay_flat(carrier.corners(t as u32), scale(surface, t)))
@@ -211,7 +221,11 @@ fn as_rigid_as_possible(surface: &Surface, mut uv: Vec<DVec2>, steps: usize) -> 
     });
     let laplacian = laplacian(uv.len(), &entries.collect::<Vec<_>>(), &[]);
     let mut right = vec![DVec2::ZERO; uv.len()];
-    for _ in 0..steps {
+    for step in 0..steps {
+        if job.is_over(FLATTENING) {
+            break;
+        }
+        job.progress("flatten", step as f64 / steps as f64, Picture::None);
         right.fill(DVec2::ZERO);
         for (corners, edges) in carrier.triangles.iter().zip(&flat) {
             let mut sum = DMat2::ZERO;
@@ -230,7 +244,7 @@ fn as_rigid_as_possible(surface: &Surface, mut uv: Vec<DVec2>, steps: usize) -> 
                 right[corners[k] as usize] -= f;
             }
         }
-        if solve(&laplacian, &right, &mut uv, ACCURACY) < SETTLED {
+        if solve(&laplacian, &right, &mut uv, ACCURACY, job) < SETTLED {
             break;
         }
     }
@@ -288,7 +302,7 @@ fn laplacian(n: usize, entries: &[(u32, u32, f64)], fixed: &[bool]) -> Multigrid
 
 /// Improve `x` on L x = right until the residual has fallen to `accuracy` of its first norm; gives that first
 /// norm over the norm of the right side.
-fn solve(laplacian: &Multigrid, right: &[DVec2], x: &mut [DVec2], accuracy: f64) -> f64 {
+fn solve(laplacian: &Multigrid, right: &[DVec2], x: &mut [DVec2], accuracy: f64, job: &Job) -> f64 {
     let mut residual = vec![DVec2::ZERO; x.len()];
     laplacian.apply(x, &mut residual);
     for (r, b) in residual.iter_mut().zip(right) {
@@ -299,6 +313,7 @@ fn solve(laplacian: &Multigrid, right: &[DVec2], x: &mut [DVec2], accuracy: f64)
     let apply = |v: &[DVec2], y: &mut [DVec2]| laplacian.apply(v, y);
     let cycle = |v: &[DVec2], y: &mut [DVec2]| laplacian.cycle(v, y);
     let enough = |first: f64| first * accuracy * accuracy;
-    conjugate_gradients(x, residual, apply, cycle, enough, SOLVER_STEPS);
+    let go_on = || !job.is_over(FLATTENING);
+    conjugate_gradients(x, residual, apply, cycle, enough, SOLVER_STEPS, go_on);
     share
 }

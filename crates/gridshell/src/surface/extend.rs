@@ -2,6 +2,7 @@
 
 use super::{Chain, ChainPoint, Fixtures, Locator, Surface};
 use crate::error::Result;
+use crate::job::Job;
 use glam::DVec3;
 
 impl Surface {
@@ -14,16 +15,20 @@ impl Surface {
         guide: &[DVec3],
         corner_angle: f64,
         edge_length: f64,
+        job: &Job,
     ) -> Result<Surface> {
         let mut more = self.clone();
         let anchors = self.fixed_points();
-        more.fix(&Fixtures {
-            crease_angle: None,
-            guides: &[guide.to_vec()],
-            anchors: &anchors,
-            corner_angle,
-            edge_length,
-        })?;
+        more.fix(
+            &Fixtures {
+                crease_angle: None,
+                guides: &[guide.to_vec()],
+                anchors: &anchors,
+                corner_angle,
+                edge_length,
+            },
+            job,
+        )?;
         more.take_over_wishes(self);
         Ok(more)
     }

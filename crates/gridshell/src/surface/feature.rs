@@ -11,6 +11,7 @@ use super::dense::thin_guide;
 use super::track::Track;
 use super::{Chain, Surface, SurfacePoint, carrier::NONE};
 use crate::error::Result;
+use crate::job::{Job, Picture};
 use crate::math::trig;
 use glam::DVec3;
 
@@ -44,7 +45,7 @@ impl Surface {
     /// # Errors
     /// [`Error::Surface`](crate::Error::Surface) with coordinates where a guide leaves the surface or is
     /// shorter than a member, or an anchor lies off the surface by more than one.
-    pub fn fix(&mut self, wanted: &Fixtures) -> Result<Vec<String>> {
+    pub fn fix(&mut self, wanted: &Fixtures, job: &Job) -> Result<Vec<String>> {
         let mut notes = Vec::new();
         if let Some(angle) = wanted.crease_angle {
             self.mark_creases(angle);
@@ -55,6 +56,8 @@ impl Surface {
         if !wanted.guides.is_empty() || !wanted.anchors.is_empty() {
             let mut cutter = Cutter::new(self, wanted.edge_length);
             for (i, guide) in wanted.guides.iter().enumerate() {
+                job.check("fixing guides")?;
+                job.progress("fix", i as f64 / wanted.guides.len() as f64, Picture::None);
                 let thinned = thin_guide(i, guide, wanted.corner_angle, wanted.edge_length);
                 let guide = match &thinned {
                     Some((guide, note)) => {
@@ -66,6 +69,8 @@ impl Surface {
                 notes.extend(cutter.cut_guide(i, guide)?);
             }
             for (i, &anchor) in wanted.anchors.iter().enumerate() {
+                job.check("fixing anchors")?;
+                job.progress("fix", i as f64 / wanted.anchors.len() as f64, Picture::None);
                 let (vertex, note) = cutter.put_anchor(i, anchor)?;
                 anchors.push(vertex);
                 notes.extend(note);

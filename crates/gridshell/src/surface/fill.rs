@@ -5,10 +5,12 @@
 //! face apart do not see each other. The spacing follows the bending of the patch and grows gently away
 //! from short boundary pieces.
 
+use super::PREPARING;
 use super::model::Sampling;
 use super::sample::{LEAST_SHARE, ROUNDING, piece_length};
 use super::shape::Shape;
 use super::trim::{NEW, Node};
+use crate::job::Job;
 use crate::math::trig;
 use glam::{DVec2, DVec3, IVec3};
 use std::collections::HashMap;
@@ -44,7 +46,11 @@ pub(super) fn inside(
     loops: &[Vec<Node>],
     sampling: &Sampling,
     most: usize,
+    job: &Job,
 ) -> Option<Vec<Node>> {
+    if job.is_over(PREPARING) {
+        return None;
+    }
     let sizes = Sizes::new(shape, loops, sampling);
     let [lo, hi] = bounds(loops);
     let mut rows = Rows {
@@ -66,6 +72,9 @@ pub(super) fn inside(
     let mut v = lo.y + LEAST_STEP * (hi.y - lo.y);
     for _ in 0..MOST {
         for stretch in intervals(loops, v) {
+            if job.is_over(PREPARING) {
+                return None;
+            }
             rows.walk(stretch, v)?;
         }
         v += rows.step(v).min((hi.y - lo.y) / 16.0).max(LEAST_STEP * (hi.y - lo.y));

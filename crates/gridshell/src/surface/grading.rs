@@ -157,11 +157,12 @@ fn sides(carrier: &Carrier) -> impl Iterator<Item = (usize, usize)> + '_ {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::job::Job;
     use crate::surface::{Sampling, builtin};
 
     fn sampled(name: &str, max_edge: f64) -> Surface {
         let sampling = Sampling { max_edge, chord_error: 1e-2 * max_edge, corner_angle: 0.5 };
-        builtin::model(name).expect("built in").surface(&sampling).expect(name)
+        builtin::model(name).expect("built in").surface(&sampling, &Job::default()).expect(name)
     }
 
     #[test]

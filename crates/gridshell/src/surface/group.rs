@@ -6,6 +6,7 @@
 
 use super::motion::unit;
 use super::{Locator, Motion, Surface};
+use crate::job::Job;
 use crate::math::trig;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -20,6 +21,9 @@ const FIT_STEPS: usize = 8;
 const FIT_POINTS: usize = 300;
 /// Points of the surface that are looked at before a symmetry is believed.
 const CHECK_POINTS: usize = 20_000;
+
+/// What polls are counted under.
+const PHASE: &str = "looking for symmetries";
 
 /// Turns and mirrorings under which a surface, or a grid, stays the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,11 +86,13 @@ pub struct Symmetries<'a> {
     centroid: DVec2,
     /// Direction in plan in which the surface is longest.
     longest: DVec2,
+    /// Once it is over, answers are of no use: the caller is to check.
+    job: &'a Job,
 }
 
 impl<'a> Symmetries<'a> {
     /// For images that may be off the surface by `tolerance` metres.
-    pub fn new(surface: &'a Surface, tolerance: f64) -> Symmetries<'a> {
+    pub fn new(surface: &'a Surface, tolerance: f64, job: &'a Job) -> Symmetries<'a> {
         let carrier = &surface.carrier;
         let faces = (0..carrier.triangles.len() as u32).map(|t| {
             let middle = carrier.corners(t).iter().sum::<DVec3>() / 3.0;
@@ -104,7 +110,8 @@ impl<'a> Symmetries<'a> {
         }
         let angle = 0.5 * trig::atan2(2.0 * xy, xx - yy);
         let longest = DVec2::new(trig::cos(angle), trig::sin(angle));
-        Symmetries { surface, locator: Locator::new(surface), tolerance, centroid, longest }
+        let locator = Locator::new(surface);
+        Symmetries { surface, locator, tolerance, centroid, longest, job }
     }
 
     /// The mirroring at the vertical plane along the unit vector `along`.
@@ -224,6 +231,7 @@ impl<'a> Symmetries<'a> {
         samples.extend(self.on_loops(count));
         let misses: Vec<Miss> = samples
             .par_iter()
+            .take_any_while(|_| !self.job.is_over(PHASE))
             .map(|sample| {
                 let image = motion.image(sample.point);
                 let distance = self.foot(sample, image).0.distance(image);
@@ -287,6 +295,9 @@ impl<'a> Symmetries<'a> {
             .collect();
         let (mut a, mut b) = ([[0.0; 2]; 2], [0.0; 2]);
         for sample in samples {
+            if self.job.is_over(PHASE) {
+                break;
+            }
             let image = motion.image(sample.point);
             let (foot, axis) = self.foot(sample, image);
             let along = |v: DVec3| axis * v.dot(axis);

@@ -110,6 +110,9 @@ pub struct Surface {
     tracks: Tracks,
 }
 
+/// What a stop is told as while a carrier is made.
+pub(crate) const PREPARING: &str = "preparing the surface";
+
 impl Surface {
     /// A carrier and its loops, with no patches behind it and nothing fixed or wanted.
     fn bare(name: String, carrier: Carrier, loops: Vec<Chain>, area: f64) -> Surface {

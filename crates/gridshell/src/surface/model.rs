@@ -2,6 +2,7 @@
 
 use super::{Brep, Smoothing, Source, Surface, tessellate};
 use crate::error::Result;
+use crate::job::Job;
 use glam::DVec3;
 
 /// A design surface as it was read: independent of the edge length.
@@ -62,10 +63,10 @@ impl Model {
     ///
     /// # Errors
     /// [`Error::Surface`](crate::Error::Surface) where the model is no manifold surface.
-    pub fn surface(&self, sampling: &Sampling) -> Result<Surface> {
+    pub fn surface(&self, sampling: &Sampling, job: &Job) -> Result<Surface> {
         match self {
-            Model::Brep(brep) => tessellate(brep, sampling),
-            Model::Mesh(mesh) => mesh.surface(sampling),
+            Model::Brep(brep) => tessellate(brep, sampling, job),
+            Model::Mesh(mesh) => mesh.surface(sampling, job),
         }
     }
 }

@@ -258,6 +258,7 @@ impl Offset {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::job::Job;
     use crate::surface::{Sampling, builtin};
 
     const SAMPLING: Sampling = Sampling { max_edge: 0.5, chord_error: 0.01, corner_angle: 0.5 };
@@ -277,7 +278,7 @@ mod tests {
         let areas: Vec<f64> = model
             .parts()
             .iter()
-            .map(|faces| model.of_faces(faces).surface(&SAMPLING).unwrap().area)
+            .map(|faces| model.of_faces(faces).surface(&SAMPLING, &Job::default()).unwrap().area)
             .collect();
         assert_eq!(areas, [1.0, 2.0]);
     }
@@ -288,8 +289,10 @@ mod tests {
         let parts = model.parts();
         assert_eq!(parts.len(), 1);
         let sampling = Sampling { max_edge: 5.0, ..SAMPLING };
-        let (whole, part) =
-            (model.surface(&sampling), model.of_faces(&parts[0]).surface(&sampling));
+        let (whole, part) = (
+            model.surface(&sampling, &Job::default()),
+            model.of_faces(&parts[0]).surface(&sampling, &Job::default()),
+        );
         let (whole, part) = (whole.unwrap(), part.unwrap());
         assert!((whole.area / part.area - 1.0).abs() < 1e-12);
         assert_eq!(whole.loops.len(), part.loops.len());
@@ -297,9 +300,11 @@ mod tests {
 
     #[test]
     fn surfaces_side_by_side_keep_their_points_and_loops() {
-        let one = || builtin::model("hexagon").unwrap().surface(&SAMPLING).unwrap();
+        let one =
+            || builtin::model("hexagon").unwrap().surface(&SAMPLING, &Job::default()).unwrap();
         let saddle = builtin::model("saddle").unwrap();
-        let saddle = saddle.surface(&Sampling { max_edge: 3.0, ..SAMPLING }).unwrap();
+        let saddle =
+            saddle.surface(&Sampling { max_edge: 3.0, ..SAMPLING }, &Job::default()).unwrap();
         let (loops, area, triangle) = (saddle.loops.len(), saddle.area, 17);
         let p = SurfacePoint { triangle, bary: [0.2, 0.3, 0.5] };
         let (there, on_loop) = (saddle.exact(&p), saddle.loops[0].exact(&saddle, 1.0));

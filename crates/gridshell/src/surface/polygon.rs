@@ -4,12 +4,15 @@
 
 use super::chain::boundary_loops;
 use super::ear::split;
-use super::{Carrier, PolygonMesh, Sampling, Surface, cap};
+use super::{Carrier, PREPARING, PolygonMesh, Sampling, Surface, cap};
 use crate::error::{Error, Result};
+use crate::job::{Job, Picture};
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 
-/// More triangles than this are refused: at about 300 bytes each they would fill a small machine.
+/// Memory that a triangle takes, about, bytes.
+const BYTES_A_TRIANGLE: f64 = 300.0;
+/// More triangles than this are refused: they would fill a small machine.
 pub(super) const MAX_TRIANGLES: f64 = 4e6;
 /// Edges are never halved below this share of the largest coordinate, where their middles would be their ends.
 const FINEST: f64 = 1e-12;
@@ -19,20 +22,25 @@ impl PolygonMesh {
     ///
     /// # Errors
     /// [`Error::Surface`] where there is no face, or the sampling is far too fine for the mesh.
-    pub fn surface(&self, sampling: &Sampling) -> Result<Surface> {
+    pub fn surface(&self, sampling: &Sampling, job: &Job) -> Result<Surface> {
         let mut points = self.points.clone();
         let (mut triangles, _) = self.split(&mut points);
         cap::flatten(&points, &mut triangles);
         if triangles.is_empty() {
             return Err(Error::Surface(format!("{}: the mesh has no faces", self.name)));
         }
-        self.check_size(&points, &triangles, sampling.max_edge)?;
+        self.check_size(&points, &triangles, sampling.max_edge, job)?;
+        job.check(PREPARING)?;
+        job.progress("surface", 0.0, Picture::None);
         while let Some(finer) = halve(&mut points, &triangles, sampling.max_edge) {
             triangles = finer;
+            job.check(PREPARING)?;
         }
         let area = triangles.iter().map(|t| area(&points, t)).sum();
         let patch = vec![0; triangles.len()];
+        job.check(PREPARING)?;
         let carrier = Carrier::new(points, triangles, patch, Vec::new());
+        job.check(PREPARING)?;
         let loops = boundary_loops(&carrier, sampling.corner_angle, |_, _| None);
         Ok(Surface::bare(self.name.clone(), carrier, loops, area))
     }
@@ -68,7 +76,13 @@ impl PolygonMesh {
 
     /// Halving goes on by powers of two, so a triangle yields about as many as its edges hold `max_edge`,
     /// squared.
-    fn check_size(&self, points: &[DVec3], triangles: &[[u32; 3]], max_edge: f64) -> Result<()> {
+    fn check_size(
+        &self,
+        points: &[DVec3],
+        triangles: &[[u32; 3]],
+        max_edge: f64,
+        job: &Job,
+    ) -> Result<()> {
         let farthest = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
         if max_edge <= FINEST * farthest {
             return Err(Error::Surface(format!(
@@ -86,6 +100,8 @@ impl PolygonMesh {
             })
             .sum();
         if expected <= MAX_TRIANGLES {
+            let what = format!("sampling the mesh every {max_edge:.3} m");
+            job.reserve(expected * BYTES_A_TRIANGLE, &what)?;
             return Ok(());
         }
         Err(Error::Surface(format!(
@@ -190,8 +206,8 @@ mod tests {
             ],
             &[&[0, 1, 2], &[0, 2, 3], &[1, 4, 2]],
         );
-        let coarse = mesh.surface(&sampling(100.0)).expect("three triangles");
-        let fine = mesh.surface(&sampling(0.7)).expect("many triangles");
+        let coarse = mesh.surface(&sampling(100.0), &Job::default()).expect("three triangles");
+        let fine = mesh.surface(&sampling(0.7), &Job::default()).expect("many triangles");
         assert_eq!(coarse.carrier.triangles.len(), 3);
         assert!((coarse.area - fine.area).abs() < 1e-12 * coarse.area);
         assert_eq!(fine.loops.len(), 1);
@@ -215,14 +231,16 @@ mod tests {
         // A damaged GLB file's: the middle of an edge was one of its ends, and halving went on until the memory was full.
         let here = DVec3::new(1.0, 2.0, 3.0).to_array();
         let mesh = sheet(&[here, [1.0, 2.0, 3.0 + 4e-16], [1.0 + 2e-16, 2.0, 3.0]], &[&[0, 1, 2]]);
-        let message = mesh.surface(&sampling(4e-17)).err().expect("an error").to_string();
+        let message =
+            mesh.surface(&sampling(4e-17), &Job::default()).err().expect("an error").to_string();
         assert!(message.contains("cannot tell points apart"), "{message}");
     }
 
     #[test]
     fn sampling_far_too_fine_is_refused_before_it_fills_the_memory() {
         let mesh = sheet(&[[0.0, 0.0, 0.0], [1e6, 0.0, 0.0], [0.0, 1e6, 0.0]], &[&[0, 1, 2]]);
-        let message = mesh.surface(&sampling(0.5)).err().expect("an error").to_string();
+        let message =
+            mesh.surface(&sampling(0.5), &Job::default()).err().expect("an error").to_string();
         assert!(message.contains("larger edge length"), "{message}");
     }
 }

@@ -5,11 +5,13 @@
 //! thinned points leave some edges longer than asked for. Edges of the polygons are never touched, so faces
 //! go on fitting together.
 
+use super::PREPARING;
 use super::carrier::NONE;
 use super::model::Sampling;
 use super::sample::LEAST_SHARE;
 use super::shape::Shape;
 use super::trim::{NEW, Node};
+use crate::job::Job;
 use glam::{DVec2, DVec3};
 
 /// Rounds of flips and splits; each halves what is too long.
@@ -105,14 +107,14 @@ impl<'a> Web<'a> {
     }
 
     /// Flip and split until every inner edge keeps the sampling, or there are more than `most` nodes.
-    pub fn refine(&mut self, sampling: &Sampling, most: usize) {
+    pub fn refine(&mut self, sampling: &Sampling, most: usize, job: &Job) {
         for _ in 0..MAX_ROUNDS {
-            self.flip_all();
-            if !self.split_long(sampling) || self.nodes.len() > most {
+            self.flip_all(job);
+            if !self.split_long(sampling, job) || self.nodes.len() > most {
                 break;
             }
         }
-        self.flip_all();
+        self.flip_all(job);
     }
 
     fn xyz(&self, i: u32) -> DVec3 {
@@ -120,13 +122,13 @@ impl<'a> Web<'a> {
     }
 
     /// Flip edges until all are Delaunay in space.
-    fn flip_all(&mut self) {
+    fn flip_all(&mut self, job: &Job) {
         let mut open: Vec<(u32, u8)> =
             (0..self.triangles.len() as u32).flat_map(|t| [(t, 0), (t, 1), (t, 2)]).collect();
         // Every flip betters the least angle, so this ends; the bound guards against rounding.
         let mut left = 60 * self.triangles.len() + 1000;
         while let Some((t, k)) = open.pop() {
-            if left == 0 {
+            if left == 0 || job.is_over(PREPARING) {
                 break;
             }
             if let Some(other) = self.try_flip(t, k as usize) {
@@ -256,9 +258,12 @@ impl<'a> Web<'a> {
     }
 
     /// Split inner edges that break the sampling, longest first, none next to another. Whether any was.
-    fn split_long(&mut self, sampling: &Sampling) -> bool {
+    fn split_long(&mut self, sampling: &Sampling, job: &Job) -> bool {
         let mut long: Vec<(f64, u32, u8)> = Vec::new();
         for t in 0..self.triangles.len() as u32 {
+            if job.is_over(PREPARING) {
+                return false;
+            }
             for k in 0..3 {
                 let o = self.neighbors[t as usize][k];
                 if o == NONE || o < t || self.fixed[t as usize][k] {

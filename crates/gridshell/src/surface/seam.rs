@@ -6,6 +6,7 @@
 //! a closed patch bounds nothing by itself: a seam leads from it to its partner on the other side, or to the
 //! pole there.
 
+use super::PREPARING;
 use super::brep::{Brep, BrepEdge, Coedge};
 use super::curve::Curve;
 use super::model::Sampling;
@@ -14,6 +15,7 @@ use super::shape::{Pole, Shape};
 use super::tessellate::{fault, sample_edges};
 use super::trim::{Edges, Node, Traced, Tracer};
 use crate::error::Result;
+use crate::job::Job;
 use glam::DVec2;
 use std::sync::Arc;
 
@@ -21,7 +23,7 @@ use std::sync::Arc;
 ///
 /// # Errors
 /// [`Error::Surface`] naming the face that has neither loops nor an end.
-pub(super) fn complete(brep: &Brep, sampling: &Sampling) -> Result<Brep> {
+pub(super) fn complete(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Brep> {
     let mut brep = brep.clone();
     poles::part(&mut brep);
     // Most faces without loops have been bounded by sewing.
@@ -35,12 +37,17 @@ pub(super) fn complete(brep: &Brep, sampling: &Sampling) -> Result<Brep> {
     if closed.is_empty() {
         return Ok(brep);
     }
-    let (points, polylines) = sample_edges(&brep, sampling)?;
+    let (points, polylines) = sample_edges(&brep, sampling, job)?;
     let curves: Vec<Curve> = brep.edges.iter().map(|e| e.curve.clone()).collect();
     let edges = Edges { curves: &curves, polylines: &polylines, points: &points };
+    // What was broken off tells nothing of the face.
+    let fault = |brep: &Brep, i: usize, what: &str| {
+        job.check(PREPARING).err().unwrap_or_else(|| fault(brep, i, what))
+    };
     for i in closed {
+        job.check(PREPARING)?;
         let shape = brep.faces[i].shape.clone();
-        let tracer = Tracer::new(&shape, &edges, sampling);
+        let tracer = Tracer::new(&shape, &edges, sampling, job);
         let traced = |reversed: bool, brep: &Brep| -> std::result::Result<Vec<Traced>, String> {
             brep.faces[i].loops.iter().map(|l| tracer.trace(l, reversed)).collect()
         };

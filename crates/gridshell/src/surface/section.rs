@@ -12,10 +12,13 @@ use super::motion::Motion;
 use super::track::{Track, Tracks};
 use super::{Carrier, Chain, Curve, Shape, Surface};
 use crate::error::{Error, Result};
+use crate::job::Job;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+/// What a stop in here is told as.
+const PHASE: &str = "cutting at planes of symmetry";
 /// A vertex this near to a plane, over its shortest edge, is moved onto it where it may.
 const NEAR: f64 = 0.3;
 /// Steps of bisection along a curve.
@@ -76,6 +79,7 @@ impl Surface {
         shares: usize,
         length: f64,
         corner_angle: f64,
+        job: &Job,
     ) -> Result<Part> {
         let [a, b] = wedge.rays.map(DVec2::perp);
         let normals = if wedge.is_straight() { vec![a] } else { vec![a, -b] };
@@ -84,10 +88,12 @@ impl Surface {
         let cutter = Cutter::new(&mut self, length);
         let (wedge, nodes) = (*wedge, Vec::new());
         let mut section = Section { cutter, wedge, normals, on, nodes, tolerance };
+        job.check(PHASE)?;
         section.put_axis();
         for plane in 0..section.normals.len() {
             section.snap(plane);
             section.split(plane);
+            job.check(PHASE)?;
         }
         if let Some(turn) = wedge.turn {
             section.tell_rays_apart();

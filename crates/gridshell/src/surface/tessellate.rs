@@ -11,11 +11,13 @@ use super::shape::Shape;
 use super::stretch::{self, Stretch};
 use super::track::{Track, Tracks};
 use super::trim::{Edges, NEW, Node, Polyline, Tracer, Trim};
-use super::{Surface, area, chain, fill, order, sample, seam, weave};
+use super::{PREPARING, Surface, area, chain, fill, order, sample, seam, weave};
 use crate::error::{Error, Result};
+use crate::job::{Job, Picture};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// More triangles than this are not made.
 const MOST_TRIANGLES: f64 = 8e6;
@@ -48,17 +50,26 @@ struct Piece {
 /// # Errors
 /// [`Error::Surface`] naming the face whose boundary crosses itself or lies off its surface, or where more
 /// than two faces meet in an edge; [`Error::Option`] where the sampling is too fine for the model.
-pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
+pub fn tessellate(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Surface> {
     check(brep, sampling)?;
-    let brep = &seam::complete(brep, sampling)?;
-    let (mut points, polylines) = sample_edges(brep, sampling)?;
+    job.check(PREPARING)?;
+    let brep = &seam::complete(brep, sampling, job)?;
+    let (mut points, polylines) = sample_edges(brep, sampling, job)?;
     let curves: Vec<_> = brep.edges.iter().map(|e| e.curve.clone()).collect();
     let edges = Edges { curves: &curves, polylines: &polylines, points: &points };
+    let done = AtomicUsize::new(0);
     let pieces: Vec<Piece> = brep
         .faces
         .par_iter()
         .enumerate()
-        .map(|(i, face)| piece(face, &edges, sampling).map_err(|what| fault(brep, i, &what)))
+        .map(|(i, face)| {
+            let made = piece(face, &edges, sampling, job);
+            // What was broken off tells nothing of the face.
+            job.check(PREPARING)?;
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            job.progress("surface", done as f64 / brep.faces.len() as f64, Picture::None);
+            made.map_err(|what| fault(brep, i, &what))
+        })
         .collect::<Result<_>>()?;
 
     let mut wings = Vec::new();
@@ -86,6 +97,7 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
         }
         wings.push(wing);
     }
+    job.check(PREPARING)?;
     let flipped = orient::alike(&wings, &points)?;
     let mut triangles: Vec<[u32; 3]> = wings.into_iter().flat_map(|w| w.triangles).collect();
     for (k, t) in triangles.iter_mut().enumerate() {
@@ -97,8 +109,11 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling) -> Result<Surface> {
     if triangles.is_empty() {
         return Err(Error::Surface(format!("{}: there is no face with an area", brep.name)));
     }
+    job.check(PREPARING)?;
     let order = order::of(&points, &triangles);
+    job.check(PREPARING)?;
     let carrier = order.carrier(&points, &triangles, &patch, &uv);
+    job.check(PREPARING)?;
     let tracks = tracks(&polylines, &order.points);
     let curve_of = |a: u32, b: u32| tracks.curve_of(a, b);
     let mut loops = chain::boundary_loops(&carrier, PI, curve_of);
@@ -149,10 +164,12 @@ fn check(brep: &Brep, sampling: &Sampling) -> Result<()> {
 pub(super) fn sample_edges(
     brep: &Brep,
     sampling: &Sampling,
+    job: &Job,
 ) -> Result<(Vec<DVec3>, Vec<Polyline>)> {
     let mut points = brep.vertices.clone();
     let mut polylines = Vec::with_capacity(brep.edges.len());
     for e in &brep.edges {
+        job.check(PREPARING)?;
         let t = sample::parameters(e, sampling).ok_or_else(too_fine)?;
         let mut vertices = vec![e.ends[0]];
         for &t in &t[1..t.len() - 1] {
@@ -176,9 +193,10 @@ fn piece(
     face: &BrepFace,
     edges: &Edges,
     sampling: &Sampling,
+    job: &Job,
 ) -> std::result::Result<Piece, String> {
     let shape = &face.shape;
-    let tracer = Tracer::new(shape, edges, sampling);
+    let tracer = Tracer::new(shape, edges, sampling, job);
     let Trim { loops, sliver } = tracer.trim(face)?;
     let all = || loops.iter().flatten().map(|n| n.uv);
     let (lo, hi) = (all().fold(DVec2::MAX, DVec2::min), all().fold(DVec2::MIN, DVec2::max));
@@ -199,18 +217,19 @@ fn piece(
     let most = most_nodes(shape, [lo, hi], &loops, sampling);
     let mut eased = *sampling;
     let inside = (0..MOST_EASINGS).find_map(|_| {
-        let inside = fill::inside(shape, &loops, &eased, most);
+        let inside = fill::inside(shape, &loops, &eased, most, job);
         eased.chord_error *= EASED;
         inside
     });
     nodes.extend(inside.ok_or(
         "it is too crumpled for triangles of this length; repair it in the program that made it",
     )?);
-    let mut web = weave_web(shape, nodes, &rims, &stretch)?;
-    web.refine(sampling, most);
+    let mut web = weave_web(shape, nodes, &rims, &stretch, job)?;
+    web.refine(sampling, most, job);
     let area: f64 = web
         .triangles
         .iter()
+        .take_while(|_| !job.is_over(PREPARING))
         .map(|t| area::triangle(shape, t.map(|n| parameters(&web.nodes[n as usize]))))
         .sum();
     Ok(Piece { nodes: web.nodes, triangles: web.triangles, area: area + sliver })
@@ -267,9 +286,10 @@ fn weave_web<'a>(
     mut nodes: Vec<Node>,
     rims: &[[u32; 2]],
     stretch: &Stretch,
+    job: &Job,
 ) -> std::result::Result<Web<'a>, String> {
     for _ in 0..MOST_PINCHES {
-        let triangles = weave::triangles(&nodes, rims, stretch).map_err(|i| {
+        let triangles = weave::triangles(&nodes, rims, stretch, job).map_err(|i| {
             let p = nodes[i].xyz;
             format!("its boundary crosses itself near ({:.4}, {:.4}, {:.4})", p.x, p.y, p.z)
         })?;

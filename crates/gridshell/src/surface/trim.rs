@@ -6,11 +6,13 @@
 //! two different (u, v): the polygon follows the degenerate side between them, and all its nodes there are
 //! the same carrier vertex.
 
+use super::PREPARING;
 use super::brep::{BrepFace, Coedge};
 use super::curve::Curve;
 use super::model::Sampling;
 use super::project::Seeds;
 use super::shape::{Pole, Shape};
+use crate::job::Job;
 use glam::{DVec2, DVec3};
 
 /// Edge samples may lie this many `max_edge` off the patch; more is another patch's edge.
@@ -85,13 +87,19 @@ pub(super) struct Tracer<'a> {
     shape: &'a Shape,
     edges: &'a Edges<'a>,
     sampling: &'a Sampling,
+    job: &'a Job,
     poles: Vec<Pole>,
     seeds: Seeds,
 }
 
 impl<'a> Tracer<'a> {
-    pub fn new(shape: &'a Shape, edges: &'a Edges<'a>, sampling: &'a Sampling) -> Tracer<'a> {
-        Tracer { shape, edges, sampling, poles: shape.poles(), seeds: Seeds::new(shape) }
+    pub fn new(
+        shape: &'a Shape,
+        edges: &'a Edges<'a>,
+        sampling: &'a Sampling,
+        job: &'a Job,
+    ) -> Tracer<'a> {
+        Tracer { shape, edges, sampling, job, poles: shape.poles(), seeds: Seeds::new(shape) }
     }
 
     pub fn poles(&self) -> &[Pole] {
@@ -127,6 +135,10 @@ impl<'a> Tracer<'a> {
         }
         let mut traced = Traced { nodes: Vec::new(), winding: DVec2::ZERO, sliver: 0.0 };
         for c in order {
+            if self.job.is_over(PREPARING) {
+                // The caller is to check: nobody reads this.
+                return Err(PREPARING.into());
+            }
             let mut path = self.path(c)?;
             traced.sliver += path.sliver;
             if let Some(&end) = traced.nodes.last() {

@@ -2,6 +2,7 @@
 
 use super::stretch::Stretch;
 use super::trim::Node;
+use crate::job::Job;
 use crate::math::delaunay;
 use glam::DVec2;
 
@@ -14,15 +15,16 @@ const LEAN: f64 = 1e-3;
 /// Triangulate the inside of `rims` over `nodes`, as [`delaunay::triangles`], in the plane of `stretch`.
 ///
 /// # Errors
-/// The node near which polygons cross.
+/// The node near which polygons cross; any where the job is over.
 pub(super) fn triangles(
     nodes: &[Node],
     rims: &[Rim],
     stretch: &Stretch,
+    job: &Job,
 ) -> Result<Vec<[u32; 3]>, usize> {
     let leaning = |p: DVec2| DVec2::new(p.x + LEAN * p.y, p.y);
     let points: Vec<_> = nodes.iter().map(|n| leaning(stretch.place(n.uv))).collect();
-    delaunay::triangles(&points, rims)
+    delaunay::triangles(&points, rims, job)
 }
 
 #[cfg(test)]
@@ -60,7 +62,7 @@ mod tests {
         for hole in [hole.to_vec(), back] {
             let n = nodes(&[square.to_vec(), hole].concat());
             let rims = [ring(0, 4), ring(4, 8)].concat();
-            let t = triangles(&n, &rims, &flat()).unwrap();
+            let t = triangles(&n, &rims, &flat(), &Job::default()).unwrap();
             assert!((area(&n, &t) - 15.0).abs() < 1e-12);
         }
     }
@@ -77,7 +79,7 @@ mod tests {
             (1., 3.),
             (0., 3.),
         ]);
-        let t = triangles(&n, &ring(0, 8), &flat()).unwrap();
+        let t = triangles(&n, &ring(0, 8), &flat(), &Job::default()).unwrap();
         assert!((area(&n, &t) - 7.0).abs() < 1e-12);
     }
 
@@ -86,15 +88,15 @@ mod tests {
         let n = nodes(&[(0., 0.), (4., 0.), (4., 4.), (0., 4.), (2., 1.), (2., 2.)]);
         let mut rims = ring(0, 4);
         rims.extend([[4, 5], [5, 4]]);
-        let t = triangles(&n, &rims, &flat()).unwrap();
+        let t = triangles(&n, &rims, &flat(), &Job::default()).unwrap();
         assert!((area(&n, &t) - 16.0).abs() < 1e-12);
     }
 
     #[test]
     fn crossing_polygon_is_an_error_not_a_panic() {
         let n = nodes(&[(0., 0.), (1., 1.), (1., 0.), (0., 1.)]);
-        assert!(triangles(&n, &ring(0, 4), &flat()).is_err());
+        assert!(triangles(&n, &ring(0, 4), &flat(), &Job::default()).is_err());
         let n = nodes(&[(0., 0.), (f64::NAN, 1.), (1., 0.), (0., 1.)]);
-        assert!(triangles(&n, &ring(0, 4), &flat()).is_err());
+        assert!(triangles(&n, &ring(0, 4), &flat(), &Job::default()).is_err());
     }
 }

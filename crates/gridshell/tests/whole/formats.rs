@@ -3,6 +3,7 @@
 
 use crate::promise::{kept, recipe};
 use gridshell::io::{self, Opening};
+use gridshell::job::Job;
 use gridshell::recipe::Recipe;
 use std::path::Path;
 
@@ -12,7 +13,7 @@ const ALIKE: f64 = 1e-3;
 /// Nodes, then the paper's measures.
 fn figures(file: &str, recipe: &Recipe) -> [f64; 6] {
     let files = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files");
-    let model = io::load(&files.join(file), &Opening::default()).unwrap();
+    let model = io::load(&files.join(file), &Opening::default(), &Job::default()).unwrap();
     let run = kept(&model, recipe);
     let q = &run.quality;
     let nodes = run.grid.mesh.vertex_count() as f64;

@@ -7,6 +7,7 @@ mod builtin;
 mod fixed;
 mod formats;
 mod hexagon;
+mod moments;
 mod narrow;
 mod paper;
 mod parts;

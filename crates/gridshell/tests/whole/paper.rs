@@ -20,7 +20,14 @@ fn random_bubbles(surface: &Surface) -> Bubbles {
     let count = pack::interior_count(surface, boundary.len(), LENGTH, 1.0);
     let mut bubbles = Bubbles { boundary, ..Bubbles::default() };
     let mut rng = fastrand::Rng::with_seed(5);
-    bubbles.interior = pack::scatter(surface, count, &bubbles.xyz(surface), 0.6 * LENGTH, &mut rng);
+    bubbles.interior = pack::scatter(
+        surface,
+        count,
+        &bubbles.xyz(surface),
+        0.6 * LENGTH,
+        &mut rng,
+        &Job::default(),
+    );
     bubbles
 }
 
@@ -32,7 +39,7 @@ fn settled(surface: &Surface, recipe: &Recipe) -> (Bubbles, Vec<ChainPoint>, pac
 }
 
 fn triangulated(surface: &Surface, recipe: &Recipe) -> Grid {
-    triangulate::triangulate(surface, &settled(surface, recipe).0).unwrap().0
+    triangulate::triangulate(surface, &settled(surface, recipe).0, &Job::default()).unwrap().0
 }
 
 fn quality(grid: &Grid, surface: &Surface) -> Quality {

@@ -44,7 +44,7 @@ pub fn surface(model: &Model, edge_length: f64) -> Surface {
         chord_error: 5e-4 * edge_length,
         corner_angle: Recipe::default().corner_angle_deg.to_radians(),
     };
-    model.surface(&sampling).unwrap()
+    model.surface(&sampling, &Job::default()).unwrap()
 }
 
 /// A run to its end that keeps all promises, with no panel folded over.

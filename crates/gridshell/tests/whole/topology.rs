@@ -2,6 +2,7 @@
 
 use crate::promise::{model, surface};
 use gridshell::bubbles::Bubbles;
+use gridshell::job::Job;
 use gridshell::stages::{pack, triangulate};
 
 /// Triangulate as few bubbles on the boundary as there may be, and `count` random ones inside; gives the
@@ -18,9 +19,9 @@ fn added(name: &str, edge_length: f64, along: f64, count: usize, seed: u64) -> u
         pieces.iter().map(|p| pack::boundary::member_count(p, along)).collect();
     let boundary = pack::boundary::place(&surface, &pieces, &counts, 0.0);
     let mut rng = fastrand::Rng::with_seed(seed);
-    let interior = pack::scatter(&surface, count, &[], 0.0, &mut rng);
+    let interior = pack::scatter(&surface, count, &[], 0.0, &mut rng, &Job::default());
     let bubbles = Bubbles { boundary, interior, ..Bubbles::default() };
-    let (grid, report) = triangulate::triangulate(&surface, &bubbles).unwrap();
+    let (grid, report) = triangulate::triangulate(&surface, &bubbles, &Job::default()).unwrap();
     grid.mesh.check().unwrap();
     assert_eq!(grid.mesh.euler_characteristic(), surface.euler_characteristic(), "{name} {seed}");
     assert_eq!(grid.mesh.boundary_loops().len(), surface.loops.len(), "{name} {seed}");

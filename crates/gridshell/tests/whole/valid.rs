@@ -58,7 +58,7 @@ fn check(what: &str, model: &Model, run: &Run) {
             assert!(!near || demanded, "{what}: nodes {b} and {a} are {} apart", p.distance(*q));
         }
     }
-    let own = pipeline::surface(model, &run.recipe).expect("the run had one").0;
+    let own = pipeline::surface(model, &run.recipe, &Job::default()).expect("the run had one").0;
     let mut area = 0.0;
     let told = run.warnings.iter().any(|w| w.contains("is folded, as the surface turns"));
     for t in grid.mesh.triangles() {
@@ -117,7 +117,7 @@ fn an_anchor_beyond_the_border_of_a_surface_without_end_is_refused_in_words() {
 #[test]
 fn an_anchor_a_little_beyond_the_border_is_put_on_it_and_told() {
     for (name, length) in [("hexagon", 0.5), ("dome", 2.0), ("saddle", 1.0)] {
-        let plain = pipeline::surface(&model(name), &draft(length)).unwrap().0;
+        let plain = pipeline::surface(&model(name), &draft(length), &Job::default()).unwrap().0;
         let chain = &plain.loops[0];
         for share in [0.06, 0.43, 0.81] {
             let s = share * chain.length();
@@ -147,7 +147,7 @@ fn anchors_a_hair_apart_or_off_the_border_share_a_node() {
         ("dome", 3.0, vec![[0.5, 0.5, 9.0], [0.5, 0.5, 9.0]], 1),
     ];
     for (name, length, mut anchors, _) in twins {
-        let plain = pipeline::surface(&model(name), &draft(length)).unwrap().0;
+        let plain = pipeline::surface(&model(name), &draft(length), &Job::default()).unwrap().0;
         let locator = gridshell::surface::Locator::new(&plain);
         for p in &mut anchors {
             *p = plain.exact(&locator.nearest((*p).into()).unwrap()).to_array();
@@ -232,7 +232,8 @@ fn a_turn_of_just_the_angle_asked_for_is_a_corner_whatever_rounding_says() {
         let border: Vec<[f64; 2]> =
             (0..n).map(|k| [radius * at(k).cos(), radius * at(k).sin()]).collect();
         let recipe = Recipe { corner_angle_deg: 360.0 / n as f64, ..draft(side) };
-        let (surface, _) = pipeline::surface(&polygon("ring", &border), &recipe).unwrap();
+        let (surface, _) =
+            pipeline::surface(&polygon("ring", &border), &recipe, &Job::default()).unwrap();
         assert_eq!(surface.loops[0].corners.len(), n, "side {side} turned by {turned}");
     }
 }

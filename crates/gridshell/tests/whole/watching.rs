@@ -19,8 +19,8 @@ fn watched(name: &str, recipe: &Recipe) -> (Vec<u64>, BTreeSet<&'static str>) {
                 assert!(xyz.len() == scales.len() && diameter > 0.0);
                 xyz.iter().all(|p| p.is_finite())
             }
-            Picture::Grid(grid) => {
-                grid.mesh.triangles().flatten().all(|v| grid.xyz[v as usize].is_finite())
+            Picture::Grid { mesh, xyz } => {
+                mesh.triangles().flatten().all(|v| xyz[v as usize].is_finite())
             }
         };
         assert!(finite, "{}", progress.stage);

@@ -5,6 +5,7 @@ use super::super::json::{self, Json};
 use super::super::soup::Soup;
 use super::super::{file, scan};
 use crate::error::{Error, Result};
+use crate::job::Job;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::path::Path;
@@ -28,8 +29,8 @@ struct Found<'a> {
 ///
 /// # Errors
 /// [`Error::Parse`] with the line, or the vertex or face by its key.
-pub(in crate::io) fn read(path: &Path) -> Result<Soup> {
-    let tree = json::parse(path, &file::read(path)?)?;
+pub(in crate::io) fn read(path: &Path, job: &Job) -> Result<Soup> {
+    let tree = json::parse(path, &file::read(path, job)?)?;
     let mut found = Vec::new();
     find(&tree, &mut Vec::new(), "", &mut found);
     let Some(best) =

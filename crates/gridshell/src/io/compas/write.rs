@@ -2,12 +2,14 @@
 //! exactly `(u, v)` with the lower node first: any other spelling loads, but its values are lost.
 
 use super::super::{GridFile, digest};
+use crate::io::WRITING;
+use crate::job::Job;
 use crate::schedule::Schedule;
 use serde_json::json;
 use std::fmt::Write;
 
 /// The file's bytes.
-pub(in crate::io) fn encode(grid: &GridFile) -> Vec<u8> {
+pub(in crate::io) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     let Schedule { nodes, members, panels, figures } = grid.schedule;
     let document = grid.document;
     let attributes = json!({
@@ -23,7 +25,7 @@ pub(in crate::io) fn encode(grid: &GridFile) -> Vec<u8> {
     out.push_str("\"default_vertex_attributes\":{\"x\":0.0,\"y\":0.0,\"z\":0.0},");
     out.push_str("\"default_edge_attributes\":{},\"default_face_attributes\":{},");
     let supported = grid.supported();
-    list(&mut out, "vertex", nodes.xyz.len(), |out, v| {
+    list(&mut out, "vertex", nodes.xyz.len(), job, |out, v| {
         let (p, n) = (nodes.xyz[v], nodes.normal[v]);
         let _ = write!(out, "\"{v}\":{{\"x\":{:?},\"y\":{:?},\"z\":{:?},", p.x, p.y, p.z);
         let _ = write!(out, "\"normal\":[{:?},{:?},{:?}],", n.x, n.y, n.z);
@@ -31,17 +33,17 @@ pub(in crate::io) fn encode(grid: &GridFile) -> Vec<u8> {
         let _ = write!(out, ",\"irregular\":{}}}", nodes.is_irregular(v));
     });
     out.push(',');
-    list(&mut out, "face", panels.nodes.len(), |out, k| {
+    list(&mut out, "face", panels.nodes.len(), job, |out, k| {
         let [a, b, c] = panels.nodes[k];
         let _ = write!(out, "\"{k}\":[{a},{b},{c}]");
     });
     out.push(',');
-    list(&mut out, "facedata", panels.nodes.len(), |out, k| {
+    list(&mut out, "facedata", panels.nodes.len(), job, |out, k| {
         let (area, shape, group) = (panels.area[k], panels.shape[k], panels.group[k]);
         let _ = write!(out, "\"{k}\":{{\"area\":{area:?},\"shape\":{shape:?},\"group\":{group}}}");
     });
     out.push(',');
-    list(&mut out, "edgedata", members.ends.len(), |out, k| {
+    list(&mut out, "edgedata", members.ends.len(), job, |out, k| {
         let ([a, b], n) = (members.ends[k], members.normal[k]);
         let _ = write!(out, "\"({a}, {b})\":{{\"length\":{:?},", members.length[k]);
         let _ = write!(out, "\"normal\":[{:?},{:?},{:?}],", n.x, n.y, n.z);
@@ -57,9 +59,9 @@ pub(in crate::io) fn encode(grid: &GridFile) -> Vec<u8> {
 }
 
 /// An object of so many entries, each written by `one`.
-fn list(out: &mut String, name: &str, count: usize, one: impl Fn(&mut String, usize)) {
+fn list(out: &mut String, name: &str, count: usize, job: &Job, one: impl Fn(&mut String, usize)) {
     let _ = write!(out, "\"{name}\":{{");
-    for k in 0..count {
+    for k in (0..count).take_while(|_| !job.is_over(WRITING)) {
         out.push_str(if k == 0 { "\n" } else { ",\n" });
         one(out, k);
     }

@@ -3,6 +3,7 @@
 use super::document::{Accessor, Document, Sparse};
 use crate::error::{Error, Result};
 use crate::io::{file, scan};
+use crate::job::Job;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use glam::DVec3;
@@ -37,6 +38,7 @@ impl<'a> Numbers<'a> {
         path: &'a Path,
         document: &'a Document,
         binary: Option<&'a [u8]>,
+        job: &Job,
     ) -> Result<Numbers<'a>> {
         let mut buffers = Vec::new();
         if document.buffers.len() > MOST_BUFFERS {
@@ -49,7 +51,7 @@ impl<'a> Numbers<'a> {
         }
         for (b, buffer) in document.buffers.iter().enumerate() {
             buffers.push(match (&buffer.uri, binary) {
-                (Some(uri), _) => Cow::Owned(fetch(path, uri, &format!("buffer {b}"))?),
+                (Some(uri), _) => Cow::Owned(fetch(path, uri, &format!("buffer {b}"), job)?),
                 (None, Some(binary)) if b == 0 => Cow::Borrowed(binary),
                 (None, _) => Cow::Borrowed(&[][..]),
             });
@@ -225,7 +227,7 @@ fn number(bytes: &[u8], component_type: u32) -> f64 {
 }
 
 /// What a URI holds.
-fn fetch(path: &Path, uri: &str, place: &str) -> Result<Vec<u8>> {
+fn fetch(path: &Path, uri: &str, place: &str, job: &Job) -> Result<Vec<u8>> {
     if let Some(data) = uri.strip_prefix("data:") {
         let Some((_, text)) = data.split_once(";base64,") else {
             return Err(scan::error(path, place, "its data is not in base64"));
@@ -243,7 +245,7 @@ fn fetch(path: &Path, uri: &str, place: &str) -> Result<Vec<u8>> {
         let message = format!("`{}` is not a file in this folder", scan::clip(uri));
         return Err(scan::error(path, place, message));
     }
-    file::read(&path.parent().unwrap_or(Path::new("")).join(beside))
+    file::read(&path.parent().unwrap_or(Path::new("")).join(beside), job)
 }
 
 /// A URI without its percent signs.

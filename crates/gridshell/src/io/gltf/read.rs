@@ -6,6 +6,7 @@ use super::numbers::Numbers;
 use crate::error::{Error, Result};
 use crate::io::soup::{Digits, Soup};
 use crate::io::{LengthUnit, file, scan};
+use crate::job::Job;
 use crate::surface::Loss;
 use glam::{DMat4, DQuat, DVec3};
 use std::path::Path;
@@ -35,13 +36,13 @@ const LOOKS: [&str; 8] = [
 ///
 /// # Errors
 /// [`Error::Parse`] with the line of the document, or the node, mesh or accessor by its number.
-pub(in crate::io) fn read(path: &Path) -> Result<Soup> {
-    let bytes = file::read(path)?;
+pub(in crate::io) fn read(path: &Path, job: &Job) -> Result<Soup> {
+    let bytes = file::read(path, job)?;
     let (text, binary) = chunks(path, &bytes)?;
     let document: Document = serde_json::from_slice(text).map_err(|e| {
         scan::error(path, format!("line {}", e.line()), format!("this is no glTF document: {e}"))
     })?;
-    let numbers = Numbers::new(path, &document, binary)?;
+    let numbers = Numbers::new(path, &document, binary, job)?;
     let mut reading = Reading {
         path,
         document: &document,

@@ -5,6 +5,8 @@
 //! node's translation adds again: georeferenced grids keep their digits.
 
 use super::super::GridFile;
+use crate::io::WRITING;
+use crate::job::Job;
 use crate::schedule::Schedule;
 use glam::DVec3;
 use serde_json::{Value, json};
@@ -41,7 +43,11 @@ struct Buffer {
 }
 
 /// The file's bytes.
-pub(in crate::io) fn encode(grid: &GridFile) -> Vec<u8> {
+pub(in crate::io) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
+    // What is made here is a few flat arrays; the caller checks again.
+    if job.is_over(WRITING) {
+        return Vec::new();
+    }
     let Schedule { nodes, members, panels, .. } = grid.schedule;
     let origin = origin(&nodes.xyz);
     let at = |v: u32| y_up(nodes.xyz[v as usize] - origin);

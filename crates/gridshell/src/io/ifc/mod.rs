@@ -6,6 +6,7 @@ mod analysis;
 mod step;
 
 use super::GridFile;
+use crate::job::Job;
 use crate::schedule::Schedule;
 use crate::structure::{Material, Section, Shape, Structure};
 use std::fmt::Write;
@@ -26,7 +27,7 @@ struct Common {
 }
 
 /// The file's bytes.
-pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
+pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     let name = encoded(&grid.document.name);
     let program = format!("gridshell {}", grid.document.version);
     let mut out = String::from("ISO-10303-21;\nHEADER;\n");
@@ -42,7 +43,7 @@ pub(super) fn encode(grid: &GridFile) -> Vec<u8> {
         "FILE_NAME('{name}.ifc','2000-01-01T00:00:00',(''),(''),'{program}','{program}','');"
     );
     out.push_str("FILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n");
-    let mut w = Step::new(out, &grid.headline());
+    let mut w = Step::new(out, &grid.headline(), job);
 
     let (common, project) = context(&mut w, grid, &name);
     let Common { placement, .. } = common;

@@ -1,11 +1,15 @@
 //! STEP text as it grows: entities, one a line, and how their values are written.
 
 use super::super::digest::{Digest, IfcId};
+use crate::io::WRITING;
+use crate::job::Job;
 use glam::DVec3;
 use std::fmt::{self, Arguments, Display, Formatter, Write};
 
 /// The file as it grows.
-pub(super) struct Step {
+pub(super) struct Step<'a> {
+    /// Once it is over nothing more is put; the caller is to check.
+    job: &'a Job,
     pub out: String,
     /// Number of the latest entity.
     pub last: usize,
@@ -13,16 +17,18 @@ pub(super) struct Step {
     own: Digest,
 }
 
-impl Step {
+impl<'a> Step<'a> {
     /// A file that begins so; its identifiers are its own by this text.
-    pub fn new(out: String, own: &str) -> Step {
-        Step { out, last: 0, own: Digest::default().with(own.as_bytes()).with(b" | ") }
+    pub fn new(out: String, own: &str, job: &'a Job) -> Step<'a> {
+        Step { job, out, last: 0, own: Digest::default().with(own.as_bytes()).with(b" | ") }
     }
 
     /// Put an entity behind the others; gives its number.
     pub fn put(&mut self, entity: Arguments) -> usize {
         self.last += 1;
-        let _ = writeln!(self.out, "#{}={entity};", self.last);
+        if !self.job.is_over(WRITING) {
+            let _ = writeln!(self.out, "#{}={entity};", self.last);
+        }
         self.last
     }
 

@@ -22,6 +22,8 @@ mod trimmed;
 
 use super::bezier;
 use crate::error::{Error, Result};
+use crate::io::READING;
+use crate::job::Job;
 use crate::surface::brep::Brep;
 use crate::surface::{Source, Unit};
 use directory::{Directory, Entry};
@@ -99,10 +101,11 @@ impl File<'_> {
 /// # Errors
 /// [`Error::Io`] where the file cannot be opened, [`Error::Parse`] with line or entity where it is no IGES file, too
 /// large, cut off, or holds no face that can be used.
-pub fn read(path: &Path) -> Result<Brep> {
+pub fn read(path: &Path, job: &Job) -> Result<Brep> {
     let io = |source| Error::Io { path: path.to_path_buf(), source };
     let fault =
         |f: Fault| Error::Parse { path: path.to_path_buf(), place: f.place, message: f.what };
+    job.check(READING)?;
     if fs::metadata(path).map_err(io)?.len() > MOST_BYTES {
         return Err(fault(Fault::new("file", format!("larger than {} MB", MOST_BYTES >> 20))));
     }

@@ -1,6 +1,7 @@
 //! Reading of small IGES files, put together here.
 
 use super::*;
+use crate::job::Job;
 use crate::surface::{Sampling, Surface, sew, tessellate};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -92,8 +93,13 @@ const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]
 
 fn surface(brep: &Brep) -> Surface {
     let mut brep = brep.clone();
-    sew(&mut brep, None).unwrap();
-    tessellate(&brep, &Sampling { max_edge: 0.2, chord_error: 1e-3, corner_angle: 0.5 }).unwrap()
+    sew(&mut brep, None, &Job::default()).unwrap();
+    tessellate(
+        &brep,
+        &Sampling { max_edge: 0.2, chord_error: 1e-3, corner_angle: 0.5 },
+        &Job::default(),
+    )
+    .unwrap()
 }
 
 #[test]

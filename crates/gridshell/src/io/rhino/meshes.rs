@@ -5,6 +5,7 @@ use super::Reading;
 use super::convert;
 use crate::io::soup::Soup;
 use crate::io::{Choice, LengthUnit, Opening, weld};
+use crate::job::Job;
 use crate::surface::brep::{BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::{NurbsCurve, NurbsSurface};
 use crate::surface::{Curve, Loss, PolygonMesh, Shape, ear};
@@ -139,7 +140,7 @@ impl Reading<'_> {
 
     /// Meshes beside exact surfaces: triangles in the place of exact faces, and what was asked for by name, become
     /// plane faces; meshes beside them are told.
-    pub(super) fn beside(&mut self, path: &Path, choice: &Choice) {
+    pub(super) fn beside(&mut self, path: &Path, choice: &Choice, job: &Job) {
         for mesh in std::mem::take(&mut self.meshed) {
             let why = if mesh.instead.is_none() && choice.is_all() {
                 "it is a mesh beside exact surfaces; choose it by layer or name to read it"
@@ -149,7 +150,7 @@ impl Reading<'_> {
                     "it has more than {MOST_FACETS} triangles; choose it alone, by layer or name, to read it"
                 )
             } else {
-                match weld::weld(path, mesh.soup(), &Opening::default()) {
+                match weld::weld(path, mesh.soup(), &Opening::default(), job) {
                     Ok(welded) => {
                         self.tell_instead(&mesh);
                         self.facets(mesh.object, &welded);

@@ -17,8 +17,9 @@ mod source;
 mod table;
 
 use super::soup::Soup;
-use super::{Choice, Opening, file, weld};
+use super::{Choice, Opening, READING, file, weld};
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::surface::brep::{Brep, BrepFace};
 use crate::surface::{Loss, Model, Object, PolygonMesh, Source};
 use blocks::{Blocks, Place};
@@ -46,12 +47,13 @@ const MOST_RETAINED: u64 = 768 << 20;
 /// # Errors
 /// [`Error::Io`] where the file cannot be read, [`Error::Parse`] where it is no 3DM file or holds no surface,
 /// [`Error::Option`] for a layer or an object that is not there.
-pub(super) fn read(path: &Path, choice: &Choice) -> Result<Model> {
-    let bytes = file::read(path)?;
+pub(super) fn read(path: &Path, choice: &Choice, job: &Job) -> Result<Model> {
+    let bytes = file::read(path, job)?;
     if bytes.len() as u64 > MOST_BYTES {
         let message = format!("larger than {} MB; save only the surface wanted", MOST_BYTES >> 20);
         return Err(fault(path, "file", message));
     }
+    job.check(READING)?;
     let version = source::version(&bytes);
     let table = table::rows(&bytes);
     let (mut ir, mut faults) = decoded(path, &bytes)?;
@@ -63,6 +65,7 @@ pub(super) fn read(path: &Path, choice: &Choice) -> Result<Model> {
         // It finds fault with every block now.
         faults = 0;
     }
+    job.check(READING)?;
     let mut reading = Reading::new(&ir, table, blocks);
     reading.objects();
     choice.check(path, &reading.listed)?;
@@ -73,10 +76,10 @@ pub(super) fn read(path: &Path, choice: &Choice) -> Result<Model> {
     reading.place(choice);
     let exact = !reading.brep.faces.is_empty();
     if exact {
-        reading.beside(path, choice);
+        reading.beside(path, choice, job);
     }
     reading.doubt(faults);
-    reading.finish(path, version)
+    reading.finish(path, version, job)
 }
 
 /// What the decoder makes of a file, and how many faults of geometry it tells.
@@ -215,7 +218,7 @@ impl<'a> Reading<'a> {
         }
     }
 
-    fn finish(mut self, path: &Path, version: String) -> Result<Model> {
+    fn finish(mut self, path: &Path, version: String, job: &Job) -> Result<Model> {
         let exact = !self.brep.faces.is_empty();
         let soup = if exact { Soup::default() } else { self.soup() };
         let notes = std::mem::take(&mut self.brep.notes);
@@ -223,7 +226,7 @@ impl<'a> Reading<'a> {
         let source = Source { version, losses, ..source::source(self.ir, self.listed) };
         if !exact && !soup.faces.is_empty() {
             let soup = Soup { notes, ..soup };
-            let mesh = weld::weld(path, soup, &Opening::default())?;
+            let mesh = weld::weld(path, soup, &Opening::default(), job)?;
             return Ok(Model::Mesh(PolygonMesh { source, ..mesh }));
         }
         if !exact {

@@ -24,6 +24,7 @@ mod units;
 use super::soup::Soup;
 use super::{Opening, weld};
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::surface::{Brep, Model, PolygonMesh, Source, Unit};
 use reading::Reading;
 use std::fs::File;
@@ -47,7 +48,7 @@ enum Found {
 /// # Errors
 /// [`Error::Io`] where the file cannot be opened, [`Error::Parse`] where it is no STEP file, too large, or
 /// holds no face that can be used; [`Error::Surface`] where it holds triangles only, and they are no surface.
-pub fn read(path: &Path) -> Result<Model> {
+pub fn read(path: &Path, job: &Job) -> Result<Model> {
     let io = |source| Error::Io { path: path.to_path_buf(), source };
     let file = File::open(path).map_err(io)?;
     if file.metadata().map_err(io)?.len() > MOST_BYTES {
@@ -57,7 +58,7 @@ pub fn read(path: &Path) -> Result<Model> {
     match parse(file.take(MOST_BYTES)).map_err(|(place, what)| fault(path, &place, &what))? {
         Found::Faces(brep) => Ok(Model::Brep(Brep { name, ..brep })),
         Found::Triangles(soup, source) => {
-            let mesh = weld::weld(path, soup, &Opening::default())?;
+            let mesh = weld::weld(path, soup, &Opening::default(), job)?;
             Ok(Model::Mesh(PolygonMesh { source, ..mesh }))
         }
     }

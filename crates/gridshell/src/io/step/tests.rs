@@ -1,6 +1,7 @@
 //! STEP texts made here, read: units, ways of edges, and what is refused.
 
 use super::*;
+use crate::job::Job;
 use crate::surface::{Sampling, tessellate};
 use glam::DVec3;
 
@@ -66,7 +67,7 @@ fn plate_with_a_hole_is_read_in_its_unit() {
         assert_eq!(brep.source.unit.as_ref().unwrap().metres, unit);
         let sampling =
             Sampling { max_edge: 0.3 * unit, chord_error: 0.002 * unit, corner_angle: 0.5 };
-        let surface = tessellate(&brep, &sampling).unwrap();
+        let surface = tessellate(&brep, &sampling, &Job::default()).unwrap();
         assert_eq!(surface.loops.len(), 2);
         assert_eq!(surface.loops[0].corners.len(), 4);
         assert!(surface.loops[1].corners.is_empty());
@@ -110,7 +111,7 @@ fn text_that_is_no_step_file_is_an_error() {
 
 #[test]
 fn missing_file_is_named() {
-    let e = read(Path::new("no/such/roof.step")).unwrap_err().to_string();
+    let e = read(Path::new("no/such/roof.step"), &Job::default()).unwrap_err().to_string();
     assert!(e.contains("roof.step"), "{e}");
 }
 
@@ -146,7 +147,9 @@ fn outline_that_crosses_itself_is_refused_with_the_place() {
     let bow = plate_of("$", "PLANE('',#93)", corners).replace("(#81,#100)", "(#81)");
     let sampling = Sampling { max_edge: 0.3, chord_error: 0.002, corner_angle: 0.5 };
     let brep = parse(bow.as_bytes()).unwrap();
-    let Err(e) = tessellate(&brep, &sampling) else { panic!("a bow tie is no face") };
+    let Err(e) = tessellate(&brep, &sampling, &Job::default()) else {
+        panic!("a bow tie is no face")
+    };
     assert!(e.to_string().contains("crosses itself near (2."), "{e}");
 }
 
@@ -252,7 +255,7 @@ fn edges_without_length_mark_a_pole_only() {
 fn area(text: &str) -> f64 {
     let brep = parse(text.as_bytes()).unwrap();
     let sampling = Sampling { max_edge: 0.3, chord_error: 0.002, corner_angle: 0.5 };
-    tessellate(&brep, &sampling).unwrap().area
+    tessellate(&brep, &sampling, &Job::default()).unwrap().area
 }
 
 /// The plate with more entities.

@@ -7,7 +7,7 @@ use crate::surface::Model;
 fn measured(mesh: &PolygonMesh) -> (usize, f64) {
     let sampling = Sampling { max_edge: 1e9, chord_error: 1e9, corner_angle: 0.5 };
     let parts = Model::Mesh(mesh.clone()).parts().len();
-    (parts, mesh.surface(&sampling).expect("a surface").area)
+    (parts, mesh.surface(&sampling, &Job::default()).expect("a surface").area)
 }
 
 fn told(mesh: &PolygonMesh, what: &str) -> bool {
@@ -42,11 +42,10 @@ fn faces_without_width_are_no_parts_and_leave_no_slits() {
             assert_eq!(parts, 1, "{name}, {scale}");
             let off = area / (100.0 * scale * scale) - 1.0;
             assert!(off.abs() < 1e-7, "{name}, {scale}: {off}");
-            let surface = Model::Mesh(mesh).surface(&Sampling {
-                max_edge: 1e9,
-                chord_error: 1e9,
-                corner_angle: 0.5,
-            });
+            let surface = Model::Mesh(mesh).surface(
+                &Sampling { max_edge: 1e9, chord_error: 1e9, corner_angle: 0.5 },
+                &Job::default(),
+            );
             assert_eq!(surface.expect(name).loops.len(), 1, "{name}, {scale}: no slit");
         }
     }

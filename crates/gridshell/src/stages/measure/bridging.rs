@@ -5,9 +5,12 @@
 //! from one end, within the ellipsoid of all points on paths of at most chord + l0: if the other end is not
 //! reached, no path that short exists.
 
+use super::PHASE;
 use crate::grid::Grid;
+use crate::job::Job;
 use crate::surface::carrier::NONE;
 use crate::surface::{Surface, SurfacePoint};
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// The walk has arrived when it ends within this share of l0.
@@ -15,18 +18,21 @@ const ARRIVED: f64 = 0.1;
 
 /// Number of [`members`].
 pub fn count(grid: &Grid, surface: &Surface, edge_length: f64) -> usize {
-    members(grid, surface, edge_length).len()
+    members(grid, surface, edge_length, &Job::default()).len()
 }
 
-/// The members whose ends are further apart along the surface than straight by more than `edge_length`.
-pub fn members(grid: &Grid, surface: &Surface, edge_length: f64) -> Vec<(u32, u32)> {
+/// The members whose ends are further apart along the surface than straight by more than `edge_length`; too few where
+/// the job is over, which the caller is to check.
+pub fn members(grid: &Grid, surface: &Surface, edge_length: f64, job: &Job) -> Vec<(u32, u32)> {
     let points: Vec<_> = grid.places.iter().map(|p| p.surface_point(surface)).collect();
     let bridges = |a: u32, b: u32| {
         let edge_length = edge_length * grid.scale(surface, a, b);
         let (a, b) = (&points[a as usize], &points[b as usize]);
         !walk_arrives(surface, a, b, edge_length) && !flood_arrives(surface, a, b, edge_length)
     };
-    grid.mesh.edges().filter(|&(a, b)| bridges(a, b)).collect()
+    let edges: Vec<(u32, u32)> = grid.mesh.edges().collect();
+    let bridges = |&(a, b): &(u32, u32)| !job.is_over(PHASE) && bridges(a, b);
+    edges.into_par_iter().filter(bridges).collect()
 }
 
 /// Walk below the quarter points of the chord.

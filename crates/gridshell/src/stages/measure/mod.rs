@@ -12,17 +12,22 @@ mod members;
 mod panels;
 mod quality;
 
-pub use bridging::{count as bridging_members, members as bridges};
+pub use bridging::count as bridging_members;
 pub use panels::is_folded;
 pub use quality::{Border, Degrees, EdgeLength, Irregular, IrregularNode, Lengths, Quality, Shape};
 
 use crate::degree::{REGULAR, adjusted_degree, boundary_angle, virtual_degree, weight};
+use crate::error::Result;
 use crate::grid::{Grid, Place};
+use crate::job::{Job, Picture};
 use crate::recipe;
 use crate::surface::Surface;
 use glam::DVec3;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
+/// What a stop in here is told as.
+const PHASE: &str = "measuring";
 /// Below this, the denominator of Q (Eq. 31) is rounding and the grid a perfect lattice.
 const PERFECT: f64 = 1e-9;
 
@@ -33,16 +38,52 @@ pub fn measure(
     edge_length: f64,
     options: &recipe::Measure,
 ) -> Quality {
-    let off = |distance: &dyn Fn(&Place, DVec3) -> f64| {
-        let places = grid.places.iter().zip(&grid.xyz);
-        places.map(|(p, x)| distance(p, *x)).fold(0.0, f64::max) / edge_length
+    looked_at(grid, surface, edge_length, options, &Job::default())
+}
+
+/// As [`measure`], as long as the job goes on.
+///
+/// # Errors
+/// [`Error::Stopped`](crate::Error::Stopped) where it is over.
+pub fn measure_within(
+    grid: &Grid,
+    surface: &Surface,
+    edge_length: f64,
+    options: &recipe::Measure,
+    job: &Job,
+) -> Result<Quality> {
+    job.check(PHASE)?;
+    job.progress("measure", 0.0, Picture::None);
+    let quality = looked_at(grid, surface, edge_length, options, job);
+    job.check(PHASE)?;
+    Ok(quality)
+}
+
+/// The measures; of no use where the job is over.
+fn looked_at(
+    grid: &Grid,
+    surface: &Surface,
+    edge_length: f64,
+    options: &recipe::Measure,
+    job: &Job,
+) -> Quality {
+    let off = |distance: &(dyn Fn(&Place, DVec3) -> f64 + Sync)| {
+        let places = grid.places.par_iter().zip(&grid.xyz);
+        let places = places.take_any_while(|_| !job.is_over(PHASE));
+        // The largest does not hang on the order.
+        places.map(|(p, x)| distance(p, *x)).reduce(|| 0.0, f64::max) / edge_length
     };
     Quality {
         surface_deviation: off(&|place, xyz| place.off_surface(surface, xyz)),
         boundary_deviation: off(&|place, xyz| place.off_boundary(surface, xyz)),
-        bridging_members: bridging::count(grid, surface, edge_length),
+        bridging_members: bridging::members(grid, surface, edge_length, job).len(),
         ..compare(grid, surface, edge_length, options)
     }
+}
+
+/// The members whose ends are further apart along the surface than straight by more than `edge_length`.
+pub fn bridges(grid: &Grid, surface: &Surface, edge_length: f64) -> Vec<(u32, u32)> {
+    bridging::members(grid, surface, edge_length, &Job::default())
 }
 
 /// As [`measure`], without what needs walks and projections on the surface: the two deviations and the

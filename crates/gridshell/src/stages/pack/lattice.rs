@@ -5,6 +5,7 @@ use super::random::interior_count;
 use super::rim::Rim;
 use super::rows::{APART, HEIGHT, Rows, rows};
 use crate::bubbles::Bubbles;
+use crate::job::Job;
 use crate::math::trig::{cos, sin};
 use crate::surface::{ChainPoint, Surface, SurfacePoint, chart::Chart};
 use glam::{DMat2, DVec2};
@@ -48,6 +49,7 @@ impl Lattice {
         length: f64,
         k_n: f64,
         row_angle: Option<f64>,
+        job: &Job,
     ) -> Bubbles {
         let pieces = pieces(surface);
         let count = |(p, extra): (_, &i64)| {
@@ -65,12 +67,12 @@ impl Lattice {
         let held = features.len() + fixed.len() + rows.bubbles.len();
         let wanted = interior_count(surface, boundary.len(), length, k_n) as f64 - held as f64;
         let mut step = length;
-        let mut interior = self.interior(surface, chart, &rim, step);
+        let mut interior = self.interior(surface, chart, &rim, step, job);
         // The strip kept clear along the border and the chart's distortion cost nodes: draw the lattice
         // closer until it has as many as members of the wanted length ask for.
         for _ in 0..2 {
             step *= (interior.len() as f64 / wanted.max(1.0)).sqrt().clamp(0.9, 1.1);
-            interior = self.interior(surface, chart, &rim, step);
+            interior = self.interior(surface, chart, &rim, step, job);
         }
         interior.extend(rows.bubbles);
         Bubbles { boundary, features, fixed, interior }
@@ -105,6 +107,7 @@ impl Lattice {
         chart: &Chart,
         rim: &Rim,
         step: f64,
+        job: &Job,
     ) -> Vec<SurfacePoint> {
         let carrier = &surface.carrier;
         let (c, s) = (cos(self.angle), sin(self.angle));
@@ -117,6 +120,9 @@ impl Lattice {
         }
         let mut found: Vec<([i64; 2], SurfacePoint)> = Vec::new();
         for t in 0..carrier.triangles.len() {
+            if job.is_over("packing") {
+                break;
+            }
             let corners = chart.corners(carrier, t);
             let [p, q, r] = corners.map(|uv| to_lattice * uv - shift);
             let (low, high) = (p.min(q).min(r), p.max(q).max(r));

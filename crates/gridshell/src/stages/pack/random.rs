@@ -1,5 +1,6 @@
 //! A random start: points spread evenly by chance over the surface's area.
 
+use crate::job::Job;
 use crate::surface::{Surface, SurfacePoint};
 use glam::DVec3;
 
@@ -18,13 +19,14 @@ const MOST_DRAWS: usize = 50;
 
 /// `count` random points, spread evenly (for members of the lengths wanted) over the carrier's area but for those
 /// that would fall within `clear` metres of a bubble that is `held`: pressed against the border, they would stay
-/// there between two of its bubbles.
+/// there between two of its bubbles. Fewer where the job is over.
 pub fn scatter(
     surface: &Surface,
     count: usize,
     held: &[DVec3],
     clear: f64,
     rng: &mut fastrand::Rng,
+    job: &Job,
 ) -> Vec<SurfacePoint> {
     let carrier = &surface.carrier;
     let mut sums = Vec::with_capacity(carrier.triangles.len());
@@ -49,6 +51,7 @@ pub fn scatter(
         held.iter().any(|r| r.distance_squared(xyz) < clear * clear)
     };
     (0..count)
+        .take_while(|_| !job.is_over("packing"))
         .map(|_| {
             let mut point = draw();
             for _ in 1..MOST_DRAWS {

@@ -174,6 +174,7 @@ fn is_apart(kept: &mut BTreeMap<[i64; 2], Vec<DVec2>>, uv: DVec2, gap: f64) -> b
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::job::Job;
     use crate::stages::pack::boundary::{member_count, pieces, place};
     use crate::surface::{Sampling, builtin};
 
@@ -182,8 +183,11 @@ mod tests {
     fn row_on(name: &str, length: f64, angle: f64, row_angle: f64) -> (Rows, Vec<[f64; 2]>) {
         let sampling =
             Sampling { max_edge: 0.5 * length, chord_error: 2e-3 * length, corner_angle: 0.5 };
-        let surface = builtin::model(name).expect("built in").surface(&sampling).expect(name);
-        let chart = Chart::flatten(&surface).expect("it has a chart");
+        let surface = builtin::model(name)
+            .expect("built in")
+            .surface(&sampling, &Job::default())
+            .expect(name);
+        let chart = Chart::flatten(&surface, &Job::default()).unwrap().expect("it has a chart");
         let pieces = pieces(&surface);
         let counts: Vec<usize> = pieces.iter().map(|p| member_count(p, length)).collect();
         let boundary = place(&surface, &pieces, &counts, 0.0);

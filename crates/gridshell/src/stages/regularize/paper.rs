@@ -6,7 +6,7 @@
 
 use super::Report;
 use super::state::State;
-use crate::job::{Job, Picture};
+use crate::job::Job;
 use crate::recipe::Regularize;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -58,11 +58,7 @@ pub fn algorithm1(state: &mut State, options: &Regularize, job: &Job) -> Report 
             report.refused += 1;
         }
         spent.push((a, b));
-        job.progress(
-            "regularize",
-            round as f64 / options.max_rounds as f64,
-            Picture::Grid(&state.grid),
-        );
+        job.progress("regularize", round as f64 / options.max_rounds as f64, state.grid.picture());
     }
     report
 }

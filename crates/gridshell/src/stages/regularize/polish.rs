@@ -10,7 +10,7 @@ use super::local::{Aim, Local};
 use super::search::{Operation, draw_at};
 use super::state::{Few, State};
 use crate::balance::{self, balance};
-use crate::job::{Job, Picture};
+use crate::job::Job;
 use crate::math::trig::{exp, ln};
 use crate::merit::{self, Sums};
 use crate::recipe::Recipe;
@@ -44,7 +44,7 @@ pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job:
     let trials = trials.saturating_mul(places).min(recipe.regularize.most_polish);
     let mut polish = Polish::new(state, recipe, seed);
     for round in 0..ROUNDS {
-        polish.balance_all(3);
+        polish.balance_all(3, job);
         if round == 0 || polish.merit > polish.best.0 {
             polish.best = (polish.merit, polish.state.grid.clone());
         }
@@ -59,11 +59,11 @@ pub fn polish(state: &mut State, recipe: &Recipe, trials: usize, seed: u64, job:
             let done = (round as f64 + made as f64 * ROUNDS as f64 / trials as f64) / ROUNDS as f64;
             let [hot, cold] = TEMPERATURE;
             polish.temperature = hot * exp(ln(cold / hot) * done);
-            job.progress("regularize", done, Picture::Grid(&polish.state.grid));
+            job.progress("regularize", done, polish.state.grid.picture());
             made += usize::from(polish.trial(&mut report));
         }
     }
-    polish.balance_all(6);
+    polish.balance_all(6, job);
     let (merit, grid) = std::mem::replace(&mut polish.best, (0.0, polish.state.grid.clone()));
     if merit > polish.merit {
         polish.state.replace(grid);
@@ -141,7 +141,7 @@ impl<'a, 'b> Polish<'a, 'b> {
     }
 
     /// Bring the whole grid into balance and count everything anew.
-    fn balance_all(&mut self, steps: usize) {
+    fn balance_all(&mut self, steps: usize, job: &Job) {
         let options = balance::Options {
             straightness: self.straightness,
             border: self.border,
@@ -149,7 +149,7 @@ impl<'a, 'b> Polish<'a, 'b> {
             max_steps: steps,
             accuracy: 0.02,
         };
-        balance(self.state.surface, &mut self.state.grid, &options, &Job::default());
+        balance(self.state.surface, &mut self.state.grid, &options, &job.part_of("regularize"));
         self.count_all();
     }
 

@@ -7,7 +7,7 @@
 
 use super::Report;
 use super::state::State;
-use crate::job::{Job, Picture};
+use crate::job::Job;
 use crate::math::trig::{exp, ln};
 use crate::mesh::Refusal;
 use crate::recipe::Regularize;
@@ -60,7 +60,7 @@ pub fn anneal(state: &mut State, options: &Regularize, k_n: f64, seed: u64, job:
             let done = (round as f64 + k as f64 / (trials / ROUNDS) as f64) / ROUNDS as f64;
             search.temperature = hot * exp(ln(cold / hot) * done);
             if k % 16 == 0 {
-                job.progress("regularize", done, Picture::Grid(&search.state.grid));
+                job.progress("regularize", done, search.state.grid.picture());
             }
             search.trial(&mut report);
         }

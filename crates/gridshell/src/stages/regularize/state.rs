@@ -411,6 +411,7 @@ impl<'a> State<'a> {
 mod tests {
     use super::*;
     use crate::bubbles::Bubbles;
+    use crate::job::Job;
     use crate::stages::{pack, triangulate};
     use crate::surface::{Fixtures, PolygonMesh, Sampling, builtin};
 
@@ -420,7 +421,7 @@ mod tests {
     fn fixed() -> Surface {
         let sampling = Sampling { max_edge: 0.35, chord_error: 1e-3, corner_angle: 0.5 };
         let model = builtin::model("hexagon").expect("built in");
-        let mut surface = model.surface(&sampling).expect("a surface");
+        let mut surface = model.surface(&sampling, &Job::default()).expect("a surface");
         let guide = vec![DVec3::new(-2.0, -1.0, 0.0), DVec3::new(2.0, 1.5, 0.0)];
         let wanted = Fixtures {
             crease_angle: None,
@@ -429,7 +430,7 @@ mod tests {
             corner_angle: 0.5,
             edge_length: LENGTH,
         };
-        surface.fix(&wanted).expect("guide and anchor are on the surface");
+        surface.fix(&wanted, &Job::default()).expect("guide and anchor are on the surface");
         surface
     }
 
@@ -445,8 +446,9 @@ mod tests {
         let mut bubbles = Bubbles { boundary, features, fixed, interior: Vec::new() };
         let held = bubbles.xyz(surface);
         let mut rng = fastrand::Rng::with_seed(3);
-        bubbles.interior = pack::scatter(surface, 80, &held, 0.5 * LENGTH, &mut rng);
-        triangulate::triangulate(surface, &bubbles).expect("a manifold").0
+        bubbles.interior =
+            pack::scatter(surface, 80, &held, 0.5 * LENGTH, &mut rng, &Job::default());
+        triangulate::triangulate(surface, &bubbles, &Job::default()).expect("a manifold").0
     }
 
     /// The nodes on the guide are joined by its members in order, and the anchor is where it was.
@@ -484,7 +486,7 @@ mod tests {
         let faces = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]].map(|f| f.to_vec()).into();
         let mesh = PolygonMesh { points: points.clone(), faces, ..PolygonMesh::default() };
         let sampling = Sampling { max_edge: 9.0, chord_error: 1e-3, corner_angle: 3.0 };
-        let surface = mesh.surface(&sampling).expect("a surface");
+        let surface = mesh.surface(&sampling, &Job::default()).expect("a surface");
         let panels = [[0, 1, 2], [0, 2, 4], [2, 3, 4], [3, 0, 4]];
         let grid = Grid::from_panels(points, &panels, &surface).expect("a grid");
         for (a, b) in [(0, 2), (2, 0)] {

@@ -5,7 +5,7 @@
 
 use super::Report;
 use crate::grid::Grid;
-use crate::job::{Job, Picture};
+use crate::job::Job;
 use crate::recipe::Relax;
 use crate::surface::Surface;
 use glam::DVec3;
@@ -51,7 +51,7 @@ pub fn net(surface: &Surface, grid: &mut Grid, options: &Relax, job: &Job) -> Re
         report.steps += 1;
         report.converged = report.last_move < options.settled;
         let done = report.steps as f64 / options.max_steps as f64;
-        job.progress("relax", done, Picture::Grid(grid));
+        job.progress("relax", done, grid.picture());
         if report.converged {
             break;
         }

@@ -6,7 +6,9 @@
 //! Here an edge is flipped only where that sum, as it is computed from the lengths that are kept, goes down:
 //! then it never comes back to where it was, however the lengths were rounded.
 
+use super::PHASE;
 use super::intrinsic::{Intrinsic, Quad, area, planar};
+use crate::job::Job;
 use glam::DVec2;
 
 /// The sum must go down by this share of the two triangles' part: more than adding them up can hide.
@@ -18,18 +20,18 @@ const COCIRCULAR: f64 = 1e-9;
 
 impl Intrinsic {
     /// Flip until every edge is Delaunay, with at most so many looks.
-    pub fn make_delaunay(&mut self, looks: usize) {
+    pub fn make_delaunay(&mut self, looks: usize, job: &Job) {
         self.suspects = self.mesh.edges().collect();
-        self.settle(self.work.looks + looks);
+        self.settle(self.work.looks + looks, job);
     }
 
     /// Flip suspects until there are none left, or this many looks have been taken.
-    pub(super) fn settle(&mut self, most: usize) {
+    pub(super) fn settle(&mut self, most: usize, job: &Job) {
         while let Some((a, b)) = self.suspects.pop() {
             if !self.mesh.adjacent(a, b) {
                 continue;
             }
-            if self.work.looks >= most {
+            if self.work.looks >= most || job.is_over(PHASE) {
                 self.work.cut_short = true;
                 self.suspects.clear();
                 return;

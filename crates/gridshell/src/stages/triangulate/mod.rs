@@ -20,10 +20,14 @@ pub use planar::triangulate as triangulate_in_chart;
 use crate::bubbles::Bubbles;
 use crate::error::Result;
 use crate::grid::{Grid, Place};
+use crate::job::Job;
 use crate::mesh::Mesh;
 use crate::surface::{Chain, ChainPoint, Surface, SurfacePoint};
 use glam::DVec3;
 use intrinsic::Intrinsic;
+
+/// What a stop in here is told as.
+const PHASE: &str = "triangulating";
 
 /// What triangulating did.
 #[derive(Clone, Debug, Default)]
@@ -48,7 +52,8 @@ const LOOKS_TO_REMOVE: usize = 120;
 ///
 /// # Errors
 /// [`Error::Surface`](crate::Error::Surface) when the carrier is not a manifold.
-pub fn triangulate(surface: &Surface, bubbles: &Bubbles) -> Result<(Grid, Report)> {
+pub fn triangulate(surface: &Surface, bubbles: &Bubbles, job: &Job) -> Result<(Grid, Report)> {
+    job.check(PHASE)?;
     let carrier = &surface.carrier;
     let mut tri = Intrinsic::new(
         Mesh::from_triangles(carrier.points.len(), &carrier.triangles)?,
@@ -61,6 +66,7 @@ pub fn triangulate(surface: &Surface, bubbles: &Bubbles) -> Result<(Grid, Report
                 .mark_feature(chain.vertices[k], chain.vertices[(k + 1) % chain.vertices.len()])?;
         }
     }
+    job.check(PHASE)?;
     let interior = insert_interior(&mut tri, surface, &bubbles.interior);
     insert_on_chains(&mut tri, &surface.loops, &bubbles.boundary, Place::Boundary, &mut nodes);
     insert_on_chains(&mut tri, &surface.features, &bubbles.features, Place::Feature, &mut nodes);
@@ -77,8 +83,9 @@ pub fn triangulate(surface: &Surface, bubbles: &Bubbles) -> Result<(Grid, Report
     let strays: Vec<u32> = tri.mesh.vertices().filter(|&v| place[v as usize].is_none()).collect();
     tri.complete();
     let vertices = tri.work.vertices;
-    tri.make_delaunay(LOOKS_TO_CONNECT * vertices);
-    let kept = tri.remove_all(strays, LOOKS_TO_REMOVE * vertices);
+    tri.make_delaunay(LOOKS_TO_CONNECT * vertices, job);
+    let kept = tri.remove_all(strays, LOOKS_TO_REMOVE * vertices, job);
+    job.check(PHASE)?;
 
     let mut report = Report { work: tri.work, ..Report::default() };
     let homes = if kept.is_empty() { Vec::new() } else { vertex_places(surface) };

@@ -5,6 +5,7 @@
 
 use crate::bubbles::Bubbles;
 use crate::grid::{Grid, Place};
+use crate::job::Job;
 use crate::math::delaunay;
 use crate::mesh::Mesh;
 use crate::surface::{ChainPoint, Surface, chart::Chart};
@@ -12,7 +13,10 @@ use glam::DVec2;
 
 /// The Delaunay grid of `bubbles` in the chart; None where the chart overlaps itself, or bubbles lie so that
 /// the boundary polygons cross or leave some outside.
-pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Option<Grid> {
+pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles, job: &Job) -> Option<Grid> {
+    if job.is_over("triangulating") {
+        return None;
+    }
     let mut points: Vec<DVec2> =
         bubbles.boundary.iter().map(|c| chart.on_chain(&surface.loops, c)).collect();
     let mut rims = Vec::with_capacity(points.len());
@@ -28,7 +32,7 @@ pub fn triangulate(surface: &Surface, chart: &Chart, bubbles: &Bubbles) -> Optio
     rims.extend(along.iter().flat_map(|&pair| [pair; 2]));
     let inside = bubbles.fixed.iter().chain(&bubbles.interior);
     points.extend(inside.map(|p| chart.at(&surface.carrier, p)));
-    let triangles = delaunay::triangles(&points, &rims).ok()?;
+    let triangles = delaunay::triangles(&points, &rims, job).ok()?;
     let mut mesh = Mesh::from_triangles(points.len(), &triangles).ok()?;
     if mesh.euler_characteristic() != surface.euler_characteristic() {
         return None;

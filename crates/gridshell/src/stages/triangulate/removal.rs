@@ -5,7 +5,9 @@
 //! go; those for which waiting does not help are cut out of their star ear by ear, with the lengths of the
 //! shortest ways through it.
 
+use super::PHASE;
 use super::intrinsic::Intrinsic;
+use crate::job::Job;
 use smallvec::SmallVec;
 
 /// More than a full turn is round a vertex where the surface is a saddle, so that its last four neighbours may
@@ -38,7 +40,7 @@ struct Ear {
 impl Intrinsic {
     /// Remove these vertices, keeping the rest Delaunay, with at most about so many looks; gives those that
     /// cannot go without changing the surface's topology.
-    pub fn remove_all(&mut self, mut vertices: Vec<u32>, looks: usize) -> Vec<u32> {
+    pub fn remove_all(&mut self, mut vertices: Vec<u32>, looks: usize, job: &Job) -> Vec<u32> {
         // Half of them are for settling: the others are left for removing.
         let bounds = [looks / 2, looks].map(|looks| self.work.looks + looks);
         for manner in [Manner::Convex, Manner::Forced] {
@@ -50,7 +52,10 @@ impl Intrinsic {
                     if tried[v as usize].is_some_and(|at| self.touched_round(v) <= at) {
                         return true;
                     }
-                    let gone = self.remove(v, manner, bounds);
+                    if job.is_over(PHASE) {
+                        return true;
+                    }
+                    let gone = self.remove(v, manner, bounds, job);
                     tried[v as usize] = Some(self.now());
                     !gone
                 });
@@ -66,7 +71,7 @@ impl Intrinsic {
     }
 
     /// Remove `v` and settle what is round it; nothing has changed where it cannot go.
-    fn remove(&mut self, v: u32, manner: Manner, [settle, most]: [usize; 2]) -> bool {
+    fn remove(&mut self, v: u32, manner: Manner, [settle, most]: [usize; 2], job: &Job) -> bool {
         if self.work.looks >= most {
             self.work.cut_short = true;
             return false;
@@ -80,7 +85,7 @@ impl Intrinsic {
             return false;
         }
         self.commit();
-        self.settle(settle);
+        self.settle(settle, job);
         true
     }
 

@@ -2,6 +2,7 @@
 
 use super::intrinsic::{Intrinsic, Work};
 use super::{LOOKS_TO_CONNECT, LOOKS_TO_REMOVE};
+use crate::job::Job;
 use crate::mesh::Mesh;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use std::f64::consts::{PI, TAU};
@@ -73,8 +74,8 @@ fn connect(carrier: &Carrier) -> (Work, usize) {
     }
     tri.complete();
     let vertices = tri.work.vertices;
-    tri.make_delaunay(LOOKS_TO_CONNECT * vertices);
-    let kept = tri.remove_all(strays, LOOKS_TO_REMOVE * vertices);
+    tri.make_delaunay(LOOKS_TO_CONNECT * vertices, &Job::default());
+    let kept = tri.remove_all(strays, LOOKS_TO_REMOVE * vertices, &Job::default());
     tri.mesh.check().expect("a valid mesh");
     assert_eq!(tri.mesh.euler_characteristic(), euler);
     (tri.work, kept.len())
@@ -206,10 +207,10 @@ fn a_bound_that_is_reached_is_told_and_leaves_a_mesh() {
     let mesh = Mesh::from_triangles(carrier.points.len(), &carrier.triangles).expect("a manifold");
     let mut tri = Intrinsic::new(mesh, &carrier.points);
     tri.complete();
-    tri.make_delaunay(100);
+    tri.make_delaunay(100, &Job::default());
     assert!(tri.work.cut_short && tri.work.looks == 100);
     let strays: Vec<u32> = tri.mesh.vertices().filter(|v| v % 7 > 0).collect();
-    let left = tri.remove_all(strays.clone(), 500).len();
+    let left = tri.remove_all(strays.clone(), 500, &Job::default()).len();
     assert!(left > 0 && left < strays.len() && tri.work.looks < 700, "{left} {:?}", tri.work);
     tri.mesh.check().expect("a valid mesh");
 }

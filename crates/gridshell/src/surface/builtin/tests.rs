@@ -2,6 +2,7 @@
 //! with the surface to the left.
 
 use super::*;
+use crate::job::Job;
 use crate::math::trig::{acos, cos, sin};
 use crate::surface::brep::{BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::NurbsCurve;
@@ -175,7 +176,8 @@ fn areas_loops_and_corners_are_those_worked_out_by_hand() {
     for (builtin, (name, area, corners, euler)) in ALL.iter().zip(table) {
         let l0 = builtin.edge_length;
         let sampling = Sampling { max_edge: 0.7 * l0, chord_error: 0.02 * l0, corner_angle: 0.5 };
-        let surface = model(name).expect("built in").surface(&sampling).expect("a surface");
+        let surface =
+            model(name).expect("built in").surface(&sampling, &Job::default()).expect("a surface");
         assert_eq!(builtin.name, name);
         assert_eq!(
             surface.loops.iter().map(|l| l.corners.len()).collect::<Vec<_>>(),
@@ -300,7 +302,8 @@ fn free_forms_have_the_size_they_say() {
     ];
     for (name, size) in sizes {
         let sampling = Sampling { max_edge: size[0] / 100.0, chord_error: 0.1, corner_angle: 0.5 };
-        let surface = model(name).expect("built in").surface(&sampling).expect("a surface");
+        let surface =
+            model(name).expect("built in").surface(&sampling, &Job::default()).expect("a surface");
         let points = &surface.carrier.points;
         let (low, high) =
             points.iter().fold((points[0], points[0]), |(l, h), &p| (l.min(p), h.max(p)));

@@ -1,7 +1,8 @@
 //! Edges that are still naked although another naked edge runs beside them: gaps that a larger tolerance would sew.
 
-use super::Sewing;
 use super::naked::Naked;
+use super::{PHASE, Sewing};
+use crate::job::Job;
 use crate::surface::Brep;
 
 /// Looks along each edge.
@@ -15,10 +16,13 @@ const ALONG: f64 = 0.9;
 const MOST_FEET: usize = 4_000_000;
 
 /// Add to `sewing` what is left within `reach` metres.
-pub(super) fn look(brep: &Brep, reach: f64, sewing: &mut Sewing) {
-    let naked = Naked::new(brep);
+pub(super) fn look(brep: &Brep, reach: f64, sewing: &mut Sewing, job: &Job) {
+    let naked = Naked::new(brep, job);
     let mut feet = 0;
     for line in &naked.lines {
+        if job.is_over(PHASE) {
+            return;
+        }
         let edge = &brep.edges[line.edge as usize];
         let length: f64 = line.points.windows(2).map(|w| w[0].distance(w[1])).sum();
         if length < 2.0 * reach || feet > MOST_FEET {

@@ -16,9 +16,12 @@ mod split;
 use super::Brep;
 use super::seam;
 use crate::error::{Error, Result};
+use crate::job::{Job, Picture};
 use naked::Naked;
 use serde::Serialize;
 
+/// What a stop in here is told as. Once the job is over, what is found is of no use: [`sew`] checks.
+const PHASE: &str = "sewing";
 /// Without a tolerance from the file, gaps below this share of the model's size are sewn.
 pub const SIZE_SHARE: f64 = 2e-5;
 /// A file's own tolerance counts up to this share of the model's size.
@@ -50,7 +53,7 @@ pub struct Sewing {
 ///
 /// # Errors
 /// [`Error::Option`] where the tolerance asked for is no length, or so large that it would close the model itself.
-pub fn sew(brep: &mut Brep, tolerance: Option<f64>) -> Result<()> {
+pub fn sew(brep: &mut Brep, tolerance: Option<f64>, job: &Job) -> Result<()> {
     let size = super::size::of_brep(brep);
     if let Some(given) = tolerance {
         check(given, size)?;
@@ -61,12 +64,17 @@ pub fn sew(brep: &mut Brep, tolerance: Option<f64>) -> Result<()> {
     }
     let usual = brep.tolerance.min(FILE_SHARE * size).max(SIZE_SHARE * size);
     let tolerance = tolerance.unwrap_or(usual);
+    job.check(PHASE)?;
+    job.progress("sew", 0.0, Picture::None);
     let mut bounded = brep.clone();
     seam::bound_all(&mut bounded);
-    let naked = Naked::new(&bounded);
+    let naked = Naked::new(&bounded, job);
     let mut sewing = Sewing { tolerance, ..Sewing::default() };
-    let pieces = split::pieces(&bounded, &naked, tolerance);
-    let pairs = pair::pairs(&bounded, &pieces, tolerance);
+    let pieces = split::pieces(&bounded, &naked, tolerance, job);
+    job.check(PHASE)?;
+    let pairs = pair::pairs(&bounded, &pieces, tolerance, job);
+    job.check(PHASE)?;
+    job.progress("sew", 0.5, Picture::None);
     let mut told = Vec::new();
     let any = !pairs.joints.is_empty() || !pairs.twins.is_empty();
     if any {
@@ -76,7 +84,8 @@ pub fn sew(brep: &mut Brep, tolerance: Option<f64>) -> Result<()> {
         told.push(joined(&sewing, brep));
         told.extend(lost.told(&pairs, tolerance));
     }
-    facing::look(&bounded, (REACH * usual).max(2.0 * tolerance), &mut sewing);
+    facing::look(&bounded, (REACH * usual).max(2.0 * tolerance), &mut sewing, job);
+    job.check(PHASE)?;
     if any {
         *brep = bounded;
     }

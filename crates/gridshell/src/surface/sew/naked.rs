@@ -1,5 +1,7 @@
 //! Naked edges: those that a single loop uses, sampled and sorted into a tree.
 
+use super::PHASE;
+use crate::job::Job;
 use crate::surface::Brep;
 use crate::surface::brep::BrepEdge;
 use crate::surface::curve::Curve;
@@ -56,9 +58,12 @@ pub(super) struct Foot {
 
 impl Naked {
     /// The naked edges of `brep`.
-    pub fn new(brep: &Brep) -> Naked {
+    pub fn new(brep: &Brep, job: &Job) -> Naked {
         let mut lines = Vec::new();
         for (edge, used) in single_uses(brep) {
+            if job.is_over(PHASE) {
+                break;
+            }
             let e = &brep.edges[edge as usize];
             let t = samples(e);
             let points: Vec<DVec3> = t.iter().map(|&t| e.curve.point(t)).collect();

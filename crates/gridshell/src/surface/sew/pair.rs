@@ -2,7 +2,9 @@
 //!
 //! Nearest first; where three or more lie together, those two whose faces go on into each other most smoothly.
 
+use super::PHASE;
 use super::split::{Piece, Pieces};
+use crate::job::Job;
 use crate::surface::Brep;
 use crate::surface::project::Seeds;
 use glam::{DVec2, DVec3};
@@ -37,8 +39,8 @@ pub(super) struct Pairs {
 }
 
 /// Pair the pieces.
-pub(super) fn pairs(brep: &Brep, pieces: &Pieces, tolerance: f64) -> Pairs {
-    let mut found = candidates(brep, &pieces.all, tolerance);
+pub(super) fn pairs(brep: &Brep, pieces: &Pieces, tolerance: f64, job: &Job) -> Pairs {
+    let mut found = candidates(brep, &pieces.all, tolerance, job);
     let twins = twins(brep, &pieces.all, &found, tolerance);
     let is_twin = |i: u32| twins.binary_search(&pieces.all[i as usize].used.face).is_ok();
     found.retain(|j| !j.pieces.iter().any(|&i| is_twin(i)));
@@ -52,7 +54,7 @@ pub(super) fn pairs(brep: &Brep, pieces: &Pieces, tolerance: f64) -> Pairs {
         .map(|j| {
             let [a, b] = j.pieces.map(|i| &pieces.all[i as usize]);
             let choice = j.pieces.iter().any(|&i| rivals[i as usize] > 1);
-            let fold = if choice { fold(brep, a, b) } else { 0.0 };
+            let fold = if choice && !job.is_over(PHASE) { fold(brep, a, b) } else { 0.0 };
             let open = u8::from(j.gap > CLOSED * tolerance);
             (open, fold, j)
         })
@@ -82,7 +84,7 @@ pub(super) fn pairs(brep: &Brep, pieces: &Pieces, tolerance: f64) -> Pairs {
 }
 
 /// All pairs of pieces that run within `tolerance` of each other from end to end.
-fn candidates(brep: &Brep, pieces: &[Piece], tolerance: f64) -> Vec<Joint> {
+fn candidates(brep: &Brep, pieces: &[Piece], tolerance: f64, job: &Job) -> Vec<Joint> {
     let mut order: Vec<u32> = (0..pieces.len() as u32).collect();
     let key = |i: u32| {
         let [a, b] = pieces[i as usize].clusters;
@@ -91,7 +93,7 @@ fn candidates(brep: &Brep, pieces: &[Piece], tolerance: f64) -> Vec<Joint> {
     order.sort_by_key(|&i| (key(i), i));
     let mut found = Vec::new();
     for group in order.chunk_by(|&i, &j| key(i) == key(j)) {
-        if group.len() > MOST_TOGETHER {
+        if group.len() > MOST_TOGETHER || job.is_over(PHASE) {
             continue;
         }
         for (n, &i) in group.iter().enumerate() {

@@ -1,6 +1,8 @@
 //! Naked edges cut into pieces where ends of others lie on them, as they do at T-junctions.
 
+use super::PHASE;
 use super::naked::{Naked, Use};
+use crate::job::Job;
 use crate::surface::Brep;
 use glam::DVec3;
 use rstar::RTree;
@@ -57,12 +59,15 @@ impl Union {
 }
 
 /// Cut the naked edges.
-pub(super) fn pieces(brep: &Brep, naked: &Naked, tolerance: f64) -> Pieces {
+pub(super) fn pieces(brep: &Brep, naked: &Naked, tolerance: f64, job: &Job) -> Pieces {
     let ends = naked.lines.iter().flat_map(|l| brep.edges[l.edge as usize].ends).collect();
     let (vertices, mut clusters) = clusters(brep, ends, tolerance);
     // Places where each edge is split, and a vertex that lies there.
     let mut cuts: Vec<Vec<(f64, DVec3, u32)>> = vec![Vec::new(); naked.lines.len()];
     for &v in &vertices {
+        if job.is_over(PHASE) {
+            break;
+        }
         let p = brep.vertices[v as usize];
         for foot in naked.feet(brep, p, tolerance) {
             let edge = &brep.edges[naked.lines[foot.line as usize].edge as usize];

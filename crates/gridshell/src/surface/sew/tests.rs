@@ -30,12 +30,17 @@ fn model(faces: Vec<BrepFace>) -> Brep {
 
 fn sewn(faces: Vec<BrepFace>, tolerance: Option<f64>) -> Brep {
     let mut brep = model(faces);
-    sew(&mut brep, tolerance).unwrap();
+    sew(&mut brep, tolerance, &Job::default()).unwrap();
     brep
 }
 
 fn surface(brep: &Brep) -> Surface {
-    tessellate(brep, &Sampling { max_edge: 0.4, chord_error: 0.01, corner_angle: 0.5 }).unwrap()
+    tessellate(
+        brep,
+        &Sampling { max_edge: 0.4, chord_error: 0.01, corner_angle: 0.5 },
+        &Job::default(),
+    )
+    .unwrap()
 }
 
 #[test]
@@ -136,7 +141,10 @@ fn a_sliver_narrower_than_the_tolerance_does_not_part_its_neighbours() {
 #[test]
 fn tolerances_that_would_swallow_the_model_are_refused() {
     for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY, 0.5] {
-        assert!(sew(&mut model(vec![plate([0.0, 1.0], [0.0, 1.0])]), Some(tolerance)).is_err());
+        assert!(
+            sew(&mut model(vec![plate([0.0, 1.0], [0.0, 1.0])]), Some(tolerance), &Job::default())
+                .is_err()
+        );
     }
 }
 
@@ -144,7 +152,7 @@ fn tolerances_that_would_swallow_the_model_are_refused() {
 fn sewing_twice_changes_nothing() {
     let once = sewn(vec![plate([0.0, 4.0], [0.0, 2.0]), plate([0.0, 1.5], [2.0, 3.0])], None);
     let mut twice = once.clone();
-    sew(&mut twice, None).unwrap();
+    sew(&mut twice, None, &Job::default()).unwrap();
     assert_eq!(twice.sewing.unwrap().joints, 0);
     assert_eq!(twice.edges.len(), once.edges.len());
     assert_eq!(twice.vertices, once.vertices);

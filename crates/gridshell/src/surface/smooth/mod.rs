@@ -16,6 +16,7 @@ mod tests;
 
 use super::PolygonMesh;
 use crate::error::Result;
+use crate::job::Job;
 use lines::Lines;
 use net::Net;
 use patch::{Arc, Patch, Side};
@@ -62,7 +63,8 @@ impl PolygonMesh {
     ///
     /// # Errors
     /// [`Error::Surface`](crate::Error::Surface) where that would take far too many triangles.
-    pub fn smoothed(&self, wanted: &Smooth) -> Result<PolygonMesh> {
+    pub fn smoothed(&self, wanted: &Smooth, job: &Job) -> Result<PolygonMesh> {
+        job.check("smoothing the mesh")?;
         let web = Web::of(self, wanted);
         let mut pieces = Pieces::of(&web, wanted);
         pieces.refine(&web, wanted.chord_error, &self.name)?;

@@ -79,7 +79,7 @@ fn ball() -> PolygonMesh {
 
 /// Largest distance, as `off` has it, of the mesh's faces and of the smoothed mesh.
 fn errors(coarse: &PolygonMesh, off: impl Fn(DVec3) -> f64) -> [f64; 2] {
-    let smooth = coarse.smoothed(&SMOOTH).expect("smooth");
+    let smooth = coarse.smoothed(&SMOOTH, &Job::default()).expect("smooth");
     assert_eq!(smooth.points[..coarse.points.len()], coarse.points, "it goes through the vertices");
     let shares: Vec<[f64; 3]> = (0..=6)
         .flat_map(|i| (0..=6 - i).map(move |j| [i, j, 6 - i - j].map(|w| f64::from(w) / 6.0)))
@@ -146,7 +146,11 @@ fn the_rim_of_a_dome_of_sixteen_sides_is_a_circle() {
     let dome = dome(4, 16, 1.2);
     assert_nearer(50.0, &dome, |p| (p.length() - 1.0).abs());
     let sampling = Sampling { max_edge: 9.0, chord_error: 1.0, corner_angle: SMOOTH.corner_angle };
-    let surface = dome.smoothed(&SMOOTH).unwrap().surface(&sampling).unwrap();
+    let surface = dome
+        .smoothed(&SMOOTH, &Job::default())
+        .unwrap()
+        .surface(&sampling, &Job::default())
+        .unwrap();
     assert_eq!((surface.loops.len(), surface.euler_characteristic()), (1, 1));
     let rim = &surface.loops[0];
     assert!(rim.corners.is_empty());
@@ -173,12 +177,12 @@ fn uneven_meshes_do_not_overshoot() {
 fn planes_stay_plane_and_creases_sharp() {
     // A gable roof with a ridge of sixty degrees: nothing bends.
     let gable = quads(4, 3, |s, t| DVec3::new(s, t, 0.577 * (0.5 - (s - 0.5).abs())));
-    let smooth = gable.smoothed(&SMOOTH).unwrap();
+    let smooth = gable.smoothed(&SMOOTH, &Job::default()).unwrap();
     assert!(smooth.smoothing.unwrap().departure < 1e-12);
     assert_eq!(smooth.faces.len(), 2 * gable.faces.len());
     // Below the crease angle the same roof is rounded, but only beside its ridge.
     let round = quads(8, 3, |s, t| DVec3::new(s, t, 0.2 * (0.5 - (s - 0.5).abs())));
-    let smooth = round.smoothed(&SMOOTH).unwrap();
+    let smooth = round.smoothed(&SMOOTH, &Job::default()).unwrap();
     let off = |p: &DVec3| (p.z - 0.2 * (0.5 - (p.x - 0.5).abs())).abs();
     assert!(smooth.smoothing.unwrap().departure > 1e-3);
     assert!(smooth.points.iter().all(|p| off(p) < 1e-9 || (p.x - 0.5).abs() <= 0.25 + 1e-9));
@@ -215,11 +219,11 @@ fn patches_meet_with_one_tangent_plane() {
 #[test]
 fn faces_finer_than_wanted_stay_as_they_are() {
     let dome = dome(4, 16, 1.2);
-    let fine = dome.smoothed(&Smooth { coarse: 2.0, ..SMOOTH }).unwrap();
+    let fine = dome.smoothed(&Smooth { coarse: 2.0, ..SMOOTH }, &Job::default()).unwrap();
     assert_eq!((fine.points, fine.smoothing.unwrap().departure), (dome.points.clone(), 0.0));
     // The rings near the pole are narrow: only those below are divided, and what touches them.
-    let some = dome.smoothed(&Smooth { coarse: 0.31, ..SMOOTH }).unwrap();
-    let all = dome.smoothed(&SMOOTH).unwrap();
+    let some = dome.smoothed(&Smooth { coarse: 0.31, ..SMOOTH }, &Job::default()).unwrap();
+    let all = dome.smoothed(&SMOOTH, &Job::default()).unwrap();
     assert!(some.faces.len() < all.faces.len() && some.points.len() > dome.points.len());
 }
 
@@ -246,7 +250,7 @@ fn honeycombs_are_smoothed_too() {
         }
     }
     let rounded = Smooth { corner_angle: 2.0, ..SMOOTH };
-    let smooth = mesh(points.clone(), faces.clone()).smoothed(&rounded).unwrap();
+    let smooth = mesh(points.clone(), faces.clone()).smoothed(&rounded, &Job::default()).unwrap();
     let off = |p: &DVec3| (p.z + 0.05 * (p.x * p.x + p.y * p.y)).abs();
     let worst =
         smooth.points.iter().filter(|p| p.truncate().length() < 1.2).map(off).fold(0.0, f64::max);
