@@ -225,7 +225,7 @@ fn every_format_has_the_files_coordinates_and_ours_open_again() {
         for end in ["obj", "ply", "stl", "off", "glb", "json", "gridshell"] {
             let path = scratch(&format!("grid{k}.{end}"));
             io::write(&path, &file, &Job::default()).unwrap();
-            let opened = reopen::open(&path, None, &Opening::default(), &Job::default()).unwrap();
+            let opened = reopen::open(&path, None, &Opening::default(), gridshell::io::Follow::Near, &Job::default()).unwrap();
             // STL holds no order of nodes.
             let loose = if end == "stl" { 1e-6 } else { 0.0 };
             let single = if end == "glb" { 1e-5 } else { loose };
@@ -239,7 +239,7 @@ fn every_format_has_the_files_coordinates_and_ours_open_again() {
                 assert_eq!(opened.grid.xyz, run.grid.xyz, "on its surface again, bit for bit");
                 assert!(opened.summary.is_some() && opened.notes.is_empty(), "{:?}", opened.notes);
             }
-            let on = reopen::open(&path, Some(&path_of(k)), &Opening::default(), &Job::default()).unwrap();
+            let on = reopen::open(&path, Some(&path_of(k)), &Opening::default(), gridshell::io::Follow::Near, &Job::default()).unwrap();
             let schedule = Schedule::new(&on.grid, &on.surface, &Tolerances::default());
             assert!(schedule.nodes.off_surface.iter().all(|&d| d < 1e-4), "{end}");
             std::fs::remove_file(&path).unwrap();

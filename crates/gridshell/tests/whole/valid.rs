@@ -58,7 +58,7 @@ fn check(what: &str, model: &Model, run: &Run) {
             assert!(!near || demanded, "{what}: nodes {b} and {a} are {} apart", p.distance(*q));
         }
     }
-    let own = pipeline::surface(model, &run.recipe).expect("the run had one").0;
+    let own = pipeline::surface(model, &run.recipe, &Job::default()).expect("the run had one").0;
     let mut area = 0.0;
     let told = run.warnings.iter().any(|w| w.contains("is folded, as the surface turns"));
     for t in grid.mesh.triangles() {
@@ -71,11 +71,6 @@ fn check(what: &str, model: &Model, run: &Run) {
     }
     let share = area / surface.area;
     assert!((0.75..1.1).contains(&share), "{what}: {share} of the area");
-}
-
-/// The surface that places of a run are on.
-fn surface_of(run: &Run, model: &Model) -> gridshell::surface::Surface {
-    pipeline::surface(model, &run.recipe, &Job::default()).expect("the run had one").0
 }
 
 fn polygon(name: &str, xy: &[[f64; 2]]) -> Model {
