@@ -12,7 +12,7 @@ libfuzzer_sys::fuzz_target!(|text: &str| {
     let Ok(log) = Log::from_json(text) else { return };
     let (surface, opened) = GRID.get_or_init(|| {
         let seed = Path::new(env!("CARGO_MANIFEST_DIR")).join("seeds/native/hexagon.gridshell");
-        let opened = reopen::open(&seed, None, &Opening::default()).expect("the seed is a grid");
+        let opened = reopen::open(&seed, None, &Opening::default(), gridshell::io::Follow::Near, &gridshell::job::Job::default()).expect("the seed is a grid");
         (Arc::new(opened.surface.clone()), opened)
     });
     let recipe = opened.recipe.clone();

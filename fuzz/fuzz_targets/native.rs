@@ -5,7 +5,7 @@ use gridshell::reopen;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     gridshell_fuzz::with_file("gridshell", bytes, |path| {
-        let Ok(opened) = reopen::open(path, None, &Opening::default()) else { return };
+        let Ok(opened) = reopen::open(path, None, &Opening::default(), gridshell::io::Follow::Near, &gridshell::job::Job::default()) else { return };
         assert!(opened.grid.mesh.check().is_ok(), "a grid that is no manifold");
         assert!(opened.grid.xyz.iter().all(|p| p.is_finite()), "a place that is none");
     });
