@@ -112,8 +112,18 @@ mod tests {
         let file = std::env::temp_dir().join(format!("gridshell-{}-limit", std::process::id()));
         fs::write(&file, b"v 0 0\xff").expect("room");
         assert_eq!(read_at_most(&file, 6, &Job::default()).expect("it fits"), b"v 0 0\xff");
-        assert!(read_at_most(&file, 5, &Job::default()).unwrap_err().to_string().contains("limit of 5 bytes"));
-        assert!(read_text(&file, 6, &Job::default()).unwrap_err().to_string().contains("line 1: this is no text"));
+        assert!(
+            read_at_most(&file, 5, &Job::default())
+                .unwrap_err()
+                .to_string()
+                .contains("limit of 5 bytes")
+        );
+        assert!(
+            read_text(&file, 6, &Job::default())
+                .unwrap_err()
+                .to_string()
+                .contains("line 1: this is no text")
+        );
         fs::remove_file(&file).expect("it was just made");
     }
 
@@ -124,7 +134,11 @@ mod tests {
             special.extend(["/dev/zero", "/dev/null"].map(Into::into));
         }
         for path in special {
-            assert!(matches!(read(&path, &Job::default()), Err(Error::Parse { .. })), "{}", path.display());
+            assert!(
+                matches!(read(&path, &Job::default()), Err(Error::Parse { .. })),
+                "{}",
+                path.display()
+            );
         }
     }
 }

@@ -63,7 +63,12 @@ pub enum Follow {
 ///
 /// # Errors
 /// As [`open`] and [`find_reference`].
-pub fn open_reference(reference: &Reference, beside: &Path, follow: Follow, job: &Job) -> Result<Model> {
+pub fn open_reference(
+    reference: &Reference,
+    beside: &Path,
+    follow: Follow,
+    job: &Job,
+) -> Result<Model> {
     match reference {
         Reference::Builtin(name) => open(name, job),
         Reference::File { path, opening, .. } => {
@@ -162,7 +167,12 @@ mod tests {
             std::fs::write(at(name), name).expect("room");
         }
         let find = |told: &str, name: &str, follow| {
-            find_reference(&referring(told, name.as_bytes()), &at("grids/a.gridshell"), follow, &Job::default())
+            find_reference(
+                &referring(told, name.as_bytes()),
+                &at("grids/a.gridshell"),
+                follow,
+                &Job::default(),
+            )
         };
         let whole = at("grids/roof.obj").display().to_string();
         let secret = at("secret.obj").display().to_string();
@@ -194,7 +204,8 @@ mod tests {
         for contents in ["v 0 0 0 0", "v 0 0 1", ""] {
             let reference = referring("roof.obj", contents.as_bytes());
             let beside = root.path().join("a.gridshell");
-            let error = find_reference(&reference, &beside, Follow::Near, &Job::default()).expect_err(contents);
+            let error = find_reference(&reference, &beside, Follow::Near, &Job::default())
+                .expect_err(contents);
             assert!(error.to_string().contains("has changed"), "{error}");
         }
     }

@@ -55,7 +55,8 @@ const SENSIBLE_NODES: usize = 1000;
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
     check_whole(model, recipe, job)?;
-    let run = parts::generate(&*smoothed(model, recipe, job)?, &local(recipe, model.origin()), job)?;
+    let run =
+        parts::generate(&*smoothed(model, recipe, job)?, &local(recipe, model.origin()), job)?;
     // As it was given, but for what turned out on the way.
     let skip_parts = run.recipe.skip_parts.clone();
     Ok(Run { recipe: Recipe { skip_parts, ..recipe.clone() }, ..run })
