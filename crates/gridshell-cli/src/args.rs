@@ -105,6 +105,7 @@ impl Following {
 }
 
 #[derive(ClapArgs)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub struct Generate {
     /// A file (STEP, 3DM, IGES, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface; a `.gridshell`
     /// file repeats its run.

@@ -21,8 +21,12 @@ pub fn json(document: &impl Serialize) -> Result<(), Failure> {
 
 /// Tell what of a file could not be read, and what was done to it while reading. With several files `of` says which.
 pub fn reading(of: &str, losses: &[String], notes: &[String]) {
-    losses.iter().for_each(|line| note(&format!("warning: {of}{line}")));
-    notes.iter().for_each(|line| note(&format!("note: {of}{line}")));
+    for line in losses {
+        note(&format!("warning: {of}{line}"));
+    }
+    for line in notes {
+        note(&format!("note: {of}{line}"));
+    }
 }
 
 /// Tell the user something beside the result.

@@ -99,9 +99,10 @@ fn pierced(n: usize, holes: &[(usize, usize)], side: f64) -> String {
 
 #[test]
 fn where_openings_touch_in_a_point_structural_files_have_one_joint() {
+    type Case = (usize, &'static [(usize, usize)], f64);
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
-    let cases: [(usize, &[(usize, usize)], f64); 3] = [
+    let cases: [Case; 3] = [
         (5, &[(1, 1), (2, 2)], 2.0),
         (6, &[(1, 3), (2, 2), (3, 1)], 20.0),
         (7, &[(1, 1), (2, 2), (3, 1), (5, 5)], 0.3),

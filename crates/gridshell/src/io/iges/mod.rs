@@ -22,7 +22,6 @@ mod trimmed;
 
 use super::{bezier, file};
 use crate::error::{Error, Result};
-use crate::io::READING;
 use crate::job::Job;
 use crate::surface::brep::Brep;
 use crate::surface::{Loss, Source, Unit};
