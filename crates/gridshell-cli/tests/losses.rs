@@ -49,7 +49,8 @@ fn two_meshes() -> String {
 
 /// As a STEP file of two plates, one of which names a surface that is not there.
 fn broken_step() -> String {
-    let points: [[i32; 2]; 6] = [[0, 0], [8000, 0], [8000, 8000], [0, 8000], [16000, 0], [16000, 8000]];
+    let points: [[i32; 2]; 6] =
+        [[0, 0], [8000, 0], [8000, 8000], [0, 8000], [16000, 0], [16000, 8000]];
     let mut text = String::from(
         "ISO-10303-21;HEADER;FILE_DESCRIPTION((''),'2;1');FILE_NAME('','',(''),(''),'','','');\
          FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));ENDSEC;DATA;\n\
