@@ -6,9 +6,9 @@ use crate::failure::Failure;
 use crate::progress::memory_limit;
 use crate::subject::Subject;
 use crate::{report, say};
-use gridshell_studio::{Error, Options, Reported};
+use gridshell_studio::{Error, Options, Redirect, Reported};
 use std::env;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 
@@ -28,9 +28,12 @@ pub fn run(args: &Studio, limits: &Limits) -> Result<Outcome, Failure> {
     let told = |address: &str| {
         // Who started it needs the address even where nothing reads standard output any more.
         let _ = say::result(&format!("the studio is at {address} (Ctrl-C ends it)\n"));
-        if !args.no_browser {
-            open(address);
+        if args.no_browser {
+            return None;
         }
+        let redirect = Redirect::to(address).ok()?;
+        open(&redirect.path());
+        Some(redirect)
     };
     gridshell_studio::run(options, told).map_err(|e| match e {
         Error::Surface(e) => Failure::of_input(e),
@@ -57,8 +60,8 @@ fn state() -> Option<PathBuf> {
     Some(root.join("gridshell/studio"))
 }
 
-/// Open the user's browser; where that fails, the address has been printed.
-fn open(address: &str) {
+/// Open the user's browser with this file; where that fails, the address has been printed.
+fn open(page: &Path) {
     let program = if cfg!(target_os = "macos") {
         "open"
     } else if cfg!(windows) {
@@ -67,6 +70,6 @@ fn open(address: &str) {
         "xdg-open"
     };
     let mut command = Command::new(program);
-    command.arg(address).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.arg(page).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let _ = command.spawn();
 }

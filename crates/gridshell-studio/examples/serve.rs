@@ -10,5 +10,8 @@ fn main() -> Result<(), gridshell_studio::Error> {
     let page = arguments.next().map(Into::into);
     let options =
         Options { surface, port: 0, log, page, state: None, report: None, memory_limit: None };
-    run(options, |address| println!("{address}"))
+    run(options, |address| {
+        println!("{address}");
+        None
+    })
 }

@@ -5,21 +5,19 @@ use gridshell::edit::{Edit, Editor, Effect, Refusal};
 use gridshell::error::{Error, Result};
 use gridshell::job::Job;
 use gridshell::pipeline;
-use gridshell::run::Run;
-use gridshell::surface::{Model, Origin};
+use gridshell::recipe::Recipe;
+use gridshell::surface::{Model, Origin, Surface};
 use serde_json::Value;
-use std::sync::Arc;
 
 /// Suggestions made.
 const SUGGESTED: usize = 8;
 
-/// An editor for what came of a run on `model`.
+/// The surface that grids of this recipe lie on.
 ///
 /// # Errors
-/// What making the surface anew says.
-pub fn editor(model: &Model, run: &Run, job: &Job) -> Result<Editor> {
-    let (surface, _) = pipeline::surface(model, &run.recipe, job)?;
-    Ok(Editor::new(Arc::new(surface), run.grid.clone(), run.recipe.clone(), run.edge_length))
+/// What making it anew says.
+pub fn surface(model: &Model, recipe: &Recipe, job: &Job) -> Result<Surface> {
+    Ok(pipeline::surface(model, recipe, job)?.0)
 }
 
 /// The edit that the page means, which draws a surface of this origin.

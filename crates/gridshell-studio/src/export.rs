@@ -35,26 +35,38 @@ pub struct Reported<'a> {
 /// Makes one page of HTML on a grid.
 pub type Report = fn(&Reported) -> String;
 
-/// What a grid is in the format of this extension, with the name of the file; `report` makes its page.
+/// A file to be taken away.
+pub struct Exported {
+    /// Its name.
+    pub name: String,
+    /// What it holds.
+    pub bytes: Vec<u8>,
+    /// The version of the grid.
+    pub version: u32,
+}
+
+/// What a grid is in the format of this extension; `report` makes its page.
 ///
 /// # Errors
 /// [`Error::Option`] where it cannot be written.
-pub fn file(laid: &Laid, extension: &str, report: Option<Report>) -> Result<(String, Vec<u8>)> {
+pub fn file(laid: &Laid, extension: &str, report: Option<Report>) -> Result<Exported> {
     let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
     let name: String = laid.document.name.chars().map(plain).collect();
     let name = format!("{name}-{}.{extension}", laid.number);
     let unwritten = |e: &dyn Display| Error::Option(format!("{name}: {e}"));
+    let finished = laid.finished()?;
+    let version = finished.version;
     let bytes = match extension {
-        "run.json" => serde_json::to_vec_pretty(&run(laid)).map_err(|e| unwritten(&e))?,
-        "edits.json" => laid.edit(|editor| Ok(editor.log().to_json()))?.into_bytes(),
+        "run.json" => serde_json::to_vec_pretty(&run(laid, finished)).map_err(|e| unwritten(&e))?,
+        "edits.json" => laid.log()?.to_json().into_bytes(),
         "report.html" => {
             let report = report.ok_or_else(|| unwritten(&"this program makes no reports"))?;
-            reported(laid, report).into_bytes()
+            reported(laid, &finished, report).into_bytes()
         }
         _ => {
             let folder = tempfile::tempdir().map_err(|e| unwritten(&e))?;
             let path = folder.path().join(name.trim_end_matches(".zip"));
-            grid(laid, &path)?;
+            grid(&finished, &path)?;
             let files = std::fs::read_dir(folder.path()).map_err(|e| unwritten(&e))?;
             let mut files: Vec<_> = files.flatten().map(|f| f.path()).collect();
             files.sort();
@@ -62,14 +74,13 @@ pub fn file(laid: &Laid, extension: &str, report: Option<Report>) -> Result<(Str
             packed.map_err(|e| unwritten(&e))?
         }
     };
-    Ok((name, bytes))
+    Ok(Exported { name, bytes, version })
 }
 
 /// Write the grid as it is.
-fn grid(laid: &Laid, path: &Path) -> Result<()> {
-    let Finished { document, schedule, .. } = laid.finished();
+fn grid(Finished { document, schedule, .. }: &Finished, path: &Path) -> Result<()> {
     let structure = Structure::default();
-    let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
+    let file = GridFile { document, schedule, structure: &structure };
     io::write(path, &file, &Job::default()).map(|_| ())
 }
 
@@ -84,14 +95,13 @@ fn zip(files: &[PathBuf]) -> std::io::Result<Vec<u8>> {
     Ok(archive.finish()?.into_inner())
 }
 
-fn reported(laid: &Laid, report: Report) -> String {
-    let Finished { document, grid, schedule } = laid.finished();
-    let quality = laid.now().quality.clone();
+fn reported(laid: &Laid, finished: &Finished, report: Report) -> String {
+    let Finished { document, grid, schedule, quality, .. } = finished;
     report(&Reported {
-        document: &document,
-        grid: &grid,
-        schedule: &schedule,
-        quality: &quality,
+        document,
+        grid,
+        schedule,
+        quality,
         edge_length: laid.edge_length,
         run: laid.run.as_ref(),
     })
@@ -99,9 +109,8 @@ fn reported(laid: &Laid, report: Report) -> String {
 
 /// The run document. Where the grid was edited, its measures are those of the grid as it is, and the edits are told;
 /// stages and candidates stay the run's. A grid from a file has a document of its measures.
-fn run(laid: &Laid) -> Value {
-    let Finished { document, grid, schedule } = laid.finished();
-    let quality = laid.now().quality.clone();
+fn run(laid: &Laid, finished: Finished) -> Value {
+    let Finished { document, grid, schedule, quality, .. } = finished;
     let mut told = match &laid.run {
         Some(run) => json!(run),
         None => json!({

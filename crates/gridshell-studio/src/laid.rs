@@ -1,19 +1,30 @@
 //! A grid that is kept, laid here or opened from a file, as it is after edits.
+//!
+//! ```text
+//! editor   locked by whoever changes the grid, for as long as that takes
+//! now      what it is between two changes: swapped when one is done, locked for that moment only
+//! ```
+//!
+//! So whatever looks, picks, weighs, writes or greets works with a picture that stays as it is, and waits for no edit.
 
+use crate::aside::aside;
 use crate::editing;
-use crate::message::RunSummary;
+use crate::message::{Event, RunSummary};
 use crate::opened::Opened;
-use gridshell::edit::Editor;
+use gridshell::edit::{Editor, Log};
 use gridshell::error::Result;
 use gridshell::grid::Grid;
 use gridshell::io::{Document, Reference};
 use gridshell::job::Job;
-use gridshell::recipe::Recipe;
+use gridshell::recipe::{Effort, Recipe};
 use gridshell::reopen;
 use gridshell::run::Run;
 use gridshell::schedule::{Schedule, Tolerances};
 use gridshell::stages::measure::{Quality, measure};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use gridshell::surface::Surface;
+use serde_json::Value;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// A grid that is kept.
 pub struct Laid {
@@ -33,17 +44,31 @@ pub struct Laid {
     pub notes: Vec<String>,
     /// Where it comes from, where no run ended with it: `from a file`.
     pub origin: Option<String>,
-    now: Mutex<Now>,
+    surface: Mutex<Option<Arc<Surface>>>,
+    editor: Mutex<Option<Editor>>,
+    now: Mutex<Arc<Now>>,
+    /// The version that is on a disk of the user's, or can be made again from what is.
+    safe: Mutex<Option<u32>>,
+    changing: AtomicBool,
+    used: AtomicU64,
 }
 
-/// A grid as it is now.
+/// A grid between two changes.
 pub struct Now {
+    /// Counts changes by hand.
+    pub version: u32,
     /// The grid.
     pub grid: Arc<Grid>,
     /// Its measures.
     pub quality: Quality,
-    /// Of a grid laid here, from the first edit on.
-    pub editor: Option<Editor>,
+    /// What was done and undone, as the page is told.
+    pub history: Event,
+    /// The edits of this session as they stand in logs; None before the first.
+    log: Option<Log>,
+    /// What it lies on, where an edit changed that.
+    surface: Option<Arc<Surface>>,
+    /// An editor of its own, to weigh edits on.
+    trial: OnceLock<Arc<Editor>>,
 }
 
 /// A grid as it goes into files.
@@ -54,6 +79,10 @@ pub struct Finished {
     pub grid: Grid,
     /// Its nodes, members and panels one by one.
     pub schedule: Schedule,
+    /// Its measures.
+    pub quality: Quality,
+    /// Which change it is after.
+    pub version: u32,
 }
 
 impl Laid {
@@ -67,8 +96,17 @@ impl Laid {
             surface: reference.clone(),
             ..Document::of_run(&run, reference.unwrap_or(own), border)
         };
-        let now =
-            Now { grid: Arc::new(run.grid.clone()), quality: run.quality.clone(), editor: None };
+        let now = Now {
+            version: 0,
+            grid: Arc::new(run.grid.clone()),
+            quality: run.quality.clone(),
+            history: editing::history(number, &document.edits, None),
+            log: None,
+            surface: None,
+            trial: OnceLock::new(),
+        };
+        // What a person chose among candidates is not made again by a run.
+        let safe = origin.is_none().then_some(0);
         Laid {
             number,
             opened,
@@ -78,28 +116,82 @@ impl Laid {
             notes: run.warnings.clone(),
             origin,
             run: Some(run),
-            now: Mutex::new(now),
+            surface: Mutex::default(),
+            editor: Mutex::default(),
+            now: Mutex::new(Arc::new(now)),
+            safe: Mutex::new(safe),
+            changing: AtomicBool::default(),
+            used: AtomicU64::default(),
         }
     }
 
-    /// Keep a grid that was read from a file under `number`.
+    /// Keep a grid that was read from a file of the user's under `number`.
     pub fn of_file(number: u32, read: reopen::Opened, opened: Arc<Opened>) -> Laid {
         let reopen::Opened { document, grid, surface, edge_length, recipe, notes, .. } = read;
-        let editor = Editor::new(Arc::new(surface), grid, recipe.clone(), edge_length);
-        let now = Now::of(editor, edge_length, &recipe);
-        let now = Mutex::new(now);
-        let origin = Some("from a file".to_owned());
-        Laid { number, opened, run: None, document, recipe, edge_length, notes, origin, now }
+        let surface = Arc::new(surface);
+        let editor = Editor::new(Arc::clone(&surface), grid, recipe.clone(), edge_length);
+        let now = Now::of(0, number, &document, &editor, edge_length, &recipe);
+        Laid {
+            number,
+            opened,
+            run: None,
+            document,
+            recipe,
+            edge_length,
+            notes,
+            origin: Some("from a file".to_owned()),
+            surface: Mutex::new(Some(surface)),
+            editor: Mutex::new(Some(editor)),
+            now: Mutex::new(Arc::new(now)),
+            safe: Mutex::new(Some(0)),
+            changing: AtomicBool::default(),
+            used: AtomicU64::default(),
+        }
+    }
+
+    /// The same grid, which lies on no disk but among what an ended studio left.
+    #[must_use]
+    pub fn recovered(self) -> Laid {
+        Laid { origin: Some("recovered".to_owned()), safe: Mutex::default(), ..self }
     }
 
     /// What it is now.
-    pub fn now(&self) -> MutexGuard<'_, Now> {
-        self.now.lock().unwrap_or_else(PoisonError::into_inner)
+    pub fn now(&self) -> Arc<Now> {
+        Arc::clone(&held(&self.now))
     }
 
     /// Its grid as it is now.
     pub fn grid(&self) -> Arc<Grid> {
         Arc::clone(&self.now().grid)
+    }
+
+    /// Whether something in it would be lost with it: changes, or a choice, that are in no file of the user's.
+    pub fn unsaved(&self) -> bool {
+        self.changing.load(Ordering::Acquire) || *held(&self.safe) != Some(self.now().version)
+    }
+
+    /// The user has this version in a file; whether that is the grid as it is.
+    pub fn saved(&self, version: u32) -> bool {
+        let is_now = self.now().version == version;
+        if is_now {
+            *held(&self.safe) = Some(version);
+        }
+        is_now
+    }
+
+    /// Whether it is a draft.
+    pub fn is_draft(&self) -> bool {
+        self.run.is_some() && self.recipe.effort == Effort::Draft
+    }
+
+    /// Note when it was looked at: `at` grows.
+    pub fn use_at(&self, at: u64) {
+        self.used.store(at, Ordering::Relaxed);
+    }
+
+    /// When it was looked at last.
+    pub fn used(&self) -> u64 {
+        self.used.load(Ordering::Relaxed)
     }
 
     /// In one line.
@@ -109,8 +201,7 @@ impl Laid {
         let seed = self.document.seed.map(|seed| format!("{effort}, seed {seed}"));
         let by: Vec<String> = seed.into_iter().chain(self.origin.clone()).collect();
         let by = by.join(", ");
-        let edits =
-            self.document.edits.len() + now.editor.as_ref().map_or(0, |e| e.history().len());
+        let edits = self.document.edits.len() + now.log.as_ref().map_or(0, |log| log.edits.len());
         let edited = match edits {
             0 => String::new(),
             1 => ", 1 edit".into(),
@@ -123,56 +214,258 @@ impl Laid {
             nodes: now.quality.nodes as u32,
             fluency: now.quality.fluency,
             irregular: (now.quality.irregular.interior + now.quality.irregular.boundary) as u32,
+            unsaved: self.unsaved(),
         }
     }
 
-    /// Work with the editor, which is made when it is first asked for.
-    pub fn edit<T>(&self, work: impl FnOnce(&mut Editor) -> Result<T>) -> Result<T> {
-        let mut now = self.now();
-        if let (None, Some(run)) = (&now.editor, &self.run) {
-            let editor = editing::editor(&self.opened.model, run, &Job::default())?;
-            *now = Now::of(editor, self.edge_length, &self.recipe);
-        }
-        let editor = now.editor.as_mut().expect("a grid from a file has one from the start");
-        work(editor)
+    /// An editor with the grid as it is, to weigh edits on: no change waits for it, nor it for one.
+    ///
+    /// # Errors
+    /// What making the surface anew says.
+    pub fn trial(&self) -> Result<Arc<Editor>> {
+        self.trial_of(&self.now())
     }
 
-    /// Change the grid.
-    pub fn change(&self, work: impl FnOnce(&mut Editor) -> Result<()>) -> Result<()> {
-        self.edit(work)?;
-        let mut now = self.now();
-        if let Some(editor) = now.editor.take() {
-            *now = Now::of(editor, self.edge_length, &self.recipe);
+    fn trial_of(&self, now: &Now) -> Result<Arc<Editor>> {
+        if let Some(trial) = now.trial.get() {
+            return Ok(Arc::clone(trial));
         }
+        let surface = match &now.surface {
+            Some(surface) => Arc::clone(surface),
+            None => self.surface(&Job::default())?,
+        };
+        let trial = now.trial.get_or_init(|| {
+            let grid = (*now.grid).clone();
+            Arc::new(Editor::new(surface, grid, self.recipe.clone(), self.edge_length))
+        });
+        Ok(Arc::clone(trial))
+    }
+
+    /// The surface that it was laid on, made when it is first asked for.
+    fn surface(&self, job: &Job) -> Result<Arc<Surface>> {
+        let mut surface = held(&self.surface);
+        if let Some(surface) = &*surface {
+            return Ok(Arc::clone(surface));
+        }
+        let made = Arc::new(aside(|| editing::surface(&self.opened.model, &self.recipe, job))?);
+        *surface = Some(Arc::clone(&made));
+        Ok(made)
+    }
+
+    /// Change the grid; what it was is seen until that is done. `job` is that of `work`.
+    ///
+    /// # Errors
+    /// What `work` says, with the grid as it was; where the job was stopped before.
+    pub fn change(
+        &self,
+        job: &Job,
+        work: impl FnOnce(&mut Editor, &Job) -> Result<()>,
+    ) -> Result<()> {
+        let mut editor = held(&self.editor);
+        let _changing = Changing::begin(&self.changing);
+        let editor = match &mut *editor {
+            Some(editor) => editor,
+            none => {
+                let (surface, grid) = (self.surface(job)?, (*self.grid()).clone());
+                none.insert(Editor::new(surface, grid, self.recipe.clone(), self.edge_length))
+            }
+        };
+        work(editor, job)?;
+        let (version, number) = (self.now().version + 1, self.number);
+        let (length, recipe) = (self.edge_length, &self.recipe);
+        let now = Now::of(version, number, &self.document, editor, length, recipe);
+        *held(&self.now) = Arc::new(now);
         Ok(())
     }
 
-    /// The grid as it is, numbered without gaps.
-    pub fn finished(&self) -> Finished {
+    /// The log of this session's edits.
+    ///
+    /// # Errors
+    /// As [`Laid::trial`].
+    pub fn log(&self) -> Result<Log> {
         let now = self.now();
-        match (&now.editor, &self.run) {
-            (None, Some(run)) => Finished {
-                document: self.document.clone(),
-                grid: run.grid.clone(),
-                schedule: run.schedule.clone(),
-            },
-            (None, None) => unreachable!("a grid from a file has an editor from the start"),
-            (Some(editor), _) => {
-                let tolerances = Tolerances::from(&self.recipe.measure);
-                let grid = editor.finished();
-                let schedule = Schedule::new(&grid, editor.surface(), &tolerances);
-                let panels = schedule.panels.nodes.clone();
-                let document = Document { panels, ..reopen::edited(&self.document, editor) };
-                Finished { document, grid, schedule }
-            }
+        match &now.log {
+            Some(log) => Ok(log.clone()),
+            None => Ok(self.trial_of(&now)?.log()),
         }
+    }
+
+    /// The grid as it is, numbered without gaps.
+    ///
+    /// # Errors
+    /// As [`Laid::trial`].
+    pub fn finished(&self) -> Result<Finished> {
+        let now = self.now();
+        let (version, quality) = (now.version, now.quality.clone());
+        if let (None, Some(run)) = (&now.log, &self.run) {
+            let document = self.document.clone();
+            let (grid, schedule) = (run.grid.clone(), run.schedule.clone());
+            return Ok(Finished { document, grid, schedule, quality, version });
+        }
+        let trial = self.trial_of(&now)?;
+        let grid = trial.finished();
+        let tolerances = Tolerances::from(&self.recipe.measure);
+        let schedule = Schedule::new(&grid, trial.surface(), &tolerances);
+        let done = now.log.iter().flat_map(|log| &log.edits).map(|edit| serde_json::json!(edit));
+        let edits: Vec<Value> = self.document.edits.iter().cloned().chain(done).collect();
+        let panels = schedule.panels.nodes.clone();
+        let document = Document { panels, edits, ..reopen::edited(&self.document, &trial) };
+        Ok(Finished { document, grid, schedule, quality, version })
+    }
+}
+
+/// A change goes on, until it is dropped.
+struct Changing<'a>(&'a AtomicBool);
+
+impl Changing<'_> {
+    fn begin(flag: &AtomicBool) -> Changing<'_> {
+        flag.store(true, Ordering::Release);
+        Changing(flag)
+    }
+}
+
+impl Drop for Changing<'_> {
+    fn drop(&mut self) {
+        self.0.store(false, Ordering::Release);
     }
 }
 
 impl Now {
     /// What an editor's grid is.
-    fn of(editor: Editor, edge_length: f64, recipe: &Recipe) -> Now {
-        let quality = measure(&editor.finished(), editor.surface(), edge_length, &recipe.measure);
-        Now { grid: Arc::new(editor.grid().clone()), quality, editor: Some(editor) }
+    fn of(
+        version: u32,
+        run: u32,
+        document: &Document,
+        editor: &Editor,
+        edge_length: f64,
+        recipe: &Recipe,
+    ) -> Now {
+        let (grid, surface, options) = (editor.finished(), editor.surface(), &recipe.measure);
+        let quality = measure(&grid, surface, edge_length, options);
+        Now {
+            version,
+            grid: Arc::new(editor.grid().clone()),
+            quality,
+            history: editing::history(run, &document.edits, Some(editor)),
+            log: Some(editor.log()),
+            surface: Some(Arc::clone(editor.surface())),
+            trial: OnceLock::new(),
+        }
+    }
+}
+
+/// What is locked for a moment; a thread that panicked has left it whole.
+fn held<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
+    lock.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+    use gridshell::edit::Edit;
+    use gridshell::pipeline;
+
+    /// The grid of a square, as if from a file.
+    pub fn square(number: u32) -> Laid {
+        let (grid, surface) = crate::measures::tests::square();
+        let document = Document::of_grid("square", &grid, surface.origin);
+        let opened = Arc::new(Opened::alone(&document, &Job::default()).unwrap());
+        let read = reopen::Opened {
+            document,
+            grid,
+            surface,
+            summary: None,
+            edge_length: 1.0,
+            recipe: Recipe::default(),
+            notes: Vec::new(),
+        };
+        Laid::of_file(number, read, opened)
+    }
+
+    /// A coarse draft on the built-in hexagon, told to be of this effort.
+    pub fn hexagon(number: u32, effort: Effort) -> Laid {
+        let opened = Opened::built_in("hexagon", &Job::default()).unwrap();
+        let recipe = Recipe { edge_length: Some(2.0), effort: Effort::Draft, ..Recipe::default() };
+        let mut run = pipeline::generate(&opened.model, &recipe, &Job::default()).unwrap();
+        run.recipe.effort = effort;
+        Laid::of_run(number, run, Arc::new(opened), None)
+    }
+
+    /// Pin a node.
+    pub fn pin(laid: &Laid, node: u32) {
+        let pin = |editor: &mut Editor, _: &Job| {
+            editor.apply(Edit::Pin { node }).unwrap();
+            Ok(())
+        };
+        laid.change(&Job::default(), pin).unwrap();
+    }
+
+    /// A middle node of the square.
+    pub const MIDDLE: u32 = 4;
+
+    #[test]
+    fn what_is_saved_is_a_version_and_not_the_grid() {
+        let laid = square(1);
+        assert!(!laid.unsaved(), "it is in the file that it came from");
+        pin(&laid, MIDDLE);
+        assert!(laid.unsaved());
+        let version = laid.finished().unwrap().version;
+        pin(&laid, MIDDLE + 1);
+        assert!(!laid.saved(version), "the grid has changed since");
+        assert!(laid.unsaved());
+        assert!(laid.saved(version + 1) && !laid.unsaved());
+        let undo = |editor: &mut Editor, _: &Job| {
+            editor.undo().unwrap();
+            Ok(())
+        };
+        laid.change(&Job::default(), undo).unwrap();
+        assert!(laid.unsaved(), "what is undone since then is a change as well");
+        assert!(square(2).recovered().unsaved());
+    }
+
+    #[test]
+    fn while_a_grid_is_changed_what_it_was_is_seen_weighed_and_written() {
+        let laid = square(1);
+        let before = laid.finished().unwrap();
+        laid.change(&Job::default(), |editor, _| {
+            editor.apply(Edit::Pin { node: MIDDLE }).unwrap();
+            // On this very thread: whatever waited for the change would never come.
+            assert!(laid.unsaved(), "it is being changed");
+            assert_eq!(laid.finished().unwrap().document.nodes, before.document.nodes);
+            assert!(laid.log().unwrap().edits.is_empty());
+            assert!(laid.trial().unwrap().history().next().is_none());
+            assert!(!laid.summary().detail.contains("edit"));
+            Ok(())
+        })
+        .unwrap();
+        assert_eq!(laid.finished().unwrap().document.edits.len(), 1);
+        assert!(laid.summary().detail.ends_with(", 1 edit"));
+    }
+
+    /// What is written from a picture of the grid is what its editor would have written.
+    #[test]
+    fn a_grid_is_written_as_its_editor_has_it() {
+        let laid = hexagon(1, Effort::Draft);
+        let members: Vec<(u32, u32)> = {
+            let mesh = &laid.run.as_ref().unwrap().grid.mesh;
+            mesh.edges().filter(|&(a, _)| !mesh.is_boundary(a)).take(3).collect()
+        };
+        for (a, b) in members {
+            let mut told = None;
+            let split = |editor: &mut Editor, _: &Job| {
+                let _ = editor.apply(Edit::Split { nodes: [a, b] });
+                let _ = editor.apply(Edit::Flip { nodes: [a, b] });
+                told = Some((reopen::edited(&laid.document, editor), editor.log()));
+                Ok(())
+            };
+            laid.change(&Job::default(), split).unwrap();
+            let (document, log) = told.unwrap();
+            let finished = laid.finished().unwrap().document;
+            assert_eq!(finished.edits, document.edits);
+            assert_eq!(finished.nodes, document.nodes);
+            assert_eq!(finished.supports, document.supports);
+            assert_eq!(finished.features, document.features);
+            assert_eq!(laid.log().unwrap(), log);
+        }
     }
 }

@@ -12,6 +12,7 @@
 //! sends becomes a path on the disk: files come in and go out through the browser. Against crashes grids are kept in a
 //! folder of the user's ([`Options::state`]).
 
+mod aside;
 mod candidate;
 mod color;
 mod desk;
@@ -21,18 +22,22 @@ mod form;
 mod frame;
 mod guard;
 mod laid;
+mod lanes;
 mod laying;
+mod listen;
 mod measures;
 pub mod message;
 mod opened;
 mod page;
 mod pick;
+mod redirect;
 mod scene;
 mod server;
 mod session;
 mod told;
 
 pub use export::{Report, Reported};
+pub use redirect::Redirect;
 pub use server::Log;
 
 use desk::Desk;
@@ -42,7 +47,13 @@ use server::Server;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 use tokio::net::TcpListener;
+use tokio::sync::Notify;
+
+/// The file that a browser is opened with is removed after so long, whether the page was asked for or not: a browser
+/// that starts on a busy machine may take a while.
+const REDIRECTED: Duration = Duration::from_secs(120);
 
 /// How the studio is opened.
 pub struct Options {
@@ -106,7 +117,9 @@ impl Studio {
         if let Some(folder) = &options.state
             && let Err(e) = desk.keep_in(folder, Arc::clone(&options.log))
         {
-            (options.log)(&format!("no autosave: {}: {e}", folder.display()));
+            let fault = format!("{}: {e}", folder.display());
+            (options.log)(&format!("no autosave: {fault}"));
+            desk.autosave(Some(fault));
         }
         let page = match options.page {
             Some(folder) => Page::in_folder(&folder)?,
@@ -118,7 +131,13 @@ impl Studio {
         Ok(Studio {
             listener,
             address,
-            server: Arc::new(Server { guard, desk, page, log: options.log }),
+            server: Arc::new(Server {
+                guard,
+                desk,
+                page,
+                log: options.log,
+                entered: Notify::new(),
+            }),
         })
     }
 
@@ -128,23 +147,27 @@ impl Studio {
     }
 
     /// Answer until the process ends.
-    ///
-    /// # Errors
-    /// What the socket says.
-    pub async fn serve(self) -> Result<(), Error> {
-        Ok(axum::serve(self.listener, server::router(self.server)).await?)
+    pub async fn serve(self) {
+        listen::serve(self.listener, server::router(self.server)).await;
     }
 }
 
-/// Open a studio, tell its address, and serve it until the process ends.
+/// Open a studio, tell its address, and serve it until the process ends. The file that `told` opens a browser with is
+/// kept until the browser has come.
 ///
 /// # Errors
 /// [`Error`].
-pub fn run(options: Options, told: impl FnOnce(&str)) -> Result<(), Error> {
+pub fn run(options: Options, told: impl FnOnce(&str) -> Option<Redirect>) -> Result<(), Error> {
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
     runtime.block_on(async {
         let studio = Studio::bind(options).await?;
-        told(&studio.address());
-        studio.serve().await
+        let redirect = told(&studio.address());
+        let server = Arc::clone(&studio.server);
+        tokio::spawn(async move {
+            let _ = tokio::time::timeout(REDIRECTED, server.entered.notified()).await;
+            drop(redirect);
+        });
+        studio.serve().await;
+        Ok(())
     })
 }

@@ -132,6 +132,13 @@ pub enum Request {
         /// Which run.
         run: u32,
     },
+    /// A grid was saved, as it was in this version, and the user has seen that it was.
+    Saved {
+        /// Which run.
+        run: u32,
+        /// The version that the file's answer told.
+        version: u32,
+    },
     /// Forget a run.
     Forget {
         /// Which one.
@@ -229,6 +236,18 @@ pub enum Event {
     Left {
         /// They.
         sessions: Vec<Left>,
+        /// So many more are offered when these are dealt with.
+        more: u32,
+    },
+    /// Grids without changes by hand that were taken off the desk to make room.
+    PutAway {
+        /// A line on each.
+        grids: Vec<String>,
+    },
+    /// Whether grids are kept against crashes.
+    Autosave {
+        /// Why they cannot be; null where they are.
+        fault: Option<String>,
     },
     /// The edits of a run.
     History {
@@ -417,6 +436,20 @@ pub struct Left {
     pub seconds: f64,
     /// A line on each of its grids.
     pub grids: Vec<String>,
+    /// Those that cannot be recovered.
+    pub damaged: Vec<Damaged>,
+    /// The folder that they are in.
+    pub folder: String,
+}
+
+/// A file that cannot be read.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Damaged {
+    /// Its name in its session's folder.
+    pub file: String,
+    /// What is wrong with it.
+    pub reason: String,
 }
 
 /// A figure with its name.
@@ -461,6 +494,8 @@ pub struct RunSummary {
     pub fluency: Option<f64>,
     /// Irregular nodes.
     pub irregular: u32,
+    /// Whether it has changes by hand that are in no file of the user's.
+    pub unsaved: bool,
 }
 
 /// All about one run.
@@ -697,6 +732,7 @@ mod tests {
             Part::decl(&config),
             Object::decl(&config),
             Left::decl(&config),
+            Damaged::decl(&config),
             Fact::decl(&config),
             Progress::decl(&config),
             RunSummary::decl(&config),

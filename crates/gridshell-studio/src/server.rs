@@ -1,33 +1,44 @@
 //! The server: the page's files, one socket for each tab, files in and out. All of it behind the [`Guard`].
 
+use crate::aside::aside;
 use crate::desk::{self, Desk, Outgoing};
+use crate::export::Exported;
 use crate::guard::Guard;
+use crate::lanes::Lanes;
 use crate::message::Request as Wish;
 use crate::page::Page;
 use crate::told::{ACCEPTS, UPLOAD_LIMIT};
 use axum::Router;
 use axum::body::Bytes;
-use axum::extract::rejection::BytesRejection;
 use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
-use axum::extract::{DefaultBodyLimit, Path, Query, Request, State};
-use axum::http::{HeaderValue, StatusCode, header};
+use axum::extract::{DefaultBodyLimit, FromRequest, Path, Query, Request, State};
+use axum::http::{HeaderName, HeaderValue, StatusCode, header};
 use axum::middleware::{self, Next};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use serde::Deserialize;
 use std::future::{Ready, ready};
 use std::sync::Arc;
+use std::time::Duration;
 use tokio::sync::broadcast::error::RecvError;
-use tokio::sync::mpsc;
+use tokio::sync::{Notify, mpsc};
 
 /// Largest message from the page, bytes.
 const MESSAGE_LIMIT: usize = 1 << 20;
-/// Wishes of one tab that wait.
-const WISHES: usize = 64;
+/// Answers to one tab that wait.
+const ANSWERS: usize = 64;
+/// The body of a request has to be here after so long: even the largest file takes seconds on one machine.
+const BODY_PATIENCE: Duration = Duration::from_secs(30);
+
+/// What a stranger is told, or a user whose address or browser is of another day.
+const REFUSED: &str = "This is not the studio's address: take the whole of it from the terminal where gridshell runs.";
 
 /// What the page may load and speak to: this server only.
-const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; \
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; \
     img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// Tells the version of a grid that an export holds.
+const VERSION: HeaderName = HeaderName::from_static("gridshell-version");
 
 /// Where refusals are written.
 pub type Log = Arc<dyn Fn(&str) + Send + Sync>;
@@ -42,35 +53,45 @@ pub struct Server {
     pub page: Page,
     /// Where refusals are written.
     pub log: Log,
+    /// Told when the page is first asked for.
+    pub entered: Notify,
 }
 
 /// All that the server answers to.
 pub fn router(server: Arc<Server>) -> Router {
-    Router::new()
-        .route("/{token}/", get(index))
-        .route("/{token}/socket", get(socket))
-        .route("/{token}/open", post(open))
-        .route("/{token}/export", get(export))
-        .route("/{token}/{*file}", get(file))
+    let mut all = Router::new();
+    // The same with the token and without it.
+    let entrance = format!("/{}", server.guard.token());
+    for way in ["", &entrance] {
+        all = all
+            .route(&format!("{way}/socket"), get(socket))
+            .route(&format!("{way}/open"), post(open))
+            .route(&format!("{way}/export"), get(export))
+            .route(&format!("{way}/{{*file}}"), get(file));
+    }
+    all.route("/", get(index))
+        .route(&format!("{entrance}/"), get(enter))
         .layer(DefaultBodyLimit::max(UPLOAD_LIMIT))
         .layer(middleware::from_fn_with_state(Arc::clone(&server), guarded))
         .with_state(server)
 }
 
 async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next) -> Response {
-    let checked = server.guard.check(request.method(), request.uri().path(), request.headers());
+    let checked = server.guard.check(request.method(), request.uri(), request.headers());
     let mut response = match checked {
         // Before a byte of it is read.
-        Ok(()) if length(&request) > UPLOAD_LIMIT as u64 => too_large(&server),
-        Ok(()) => next.run(request).await,
+        Ok(_) if length(&request) > UPLOAD_LIMIT as u64 => too_large(&server),
+        Ok(_) => next.run(request).await,
         Err(reason) => {
             (server.log)(&format!("refused: {reason}"));
-            StatusCode::FORBIDDEN.into_response()
+            (StatusCode::FORBIDDEN, REFUSED).into_response()
         }
     };
     let headers = response.headers_mut();
     for (name, value) in [
         (header::CONTENT_SECURITY_POLICY, POLICY),
+        (HeaderName::from_static("cross-origin-opener-policy"), "same-origin"),
+        (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
         (header::REFERRER_POLICY, "no-referrer"),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (header::CACHE_CONTROL, "no-store"),
@@ -92,14 +113,21 @@ fn too_large(server: &Server) -> Response {
     (StatusCode::PAYLOAD_TOO_LARGE, message).into_response()
 }
 
+/// The page for who comes with the token: gets the pass, too.
+fn enter(State(server): State<Arc<Server>>) -> Ready<Response> {
+    server.entered.notify_one();
+    let mut response = page_file(&server, "");
+    if let Ok(pass) = HeaderValue::from_str(&server.guard.set_cookie()) {
+        response.headers_mut().insert(header::SET_COOKIE, pass);
+    }
+    ready(response)
+}
+
 fn index(State(server): State<Arc<Server>>) -> Ready<Response> {
     ready(page_file(&server, ""))
 }
 
-fn file(
-    State(server): State<Arc<Server>>,
-    Path((_, name)): Path<(String, String)>,
-) -> Ready<Response> {
+fn file(State(server): State<Arc<Server>>, Path(name): Path<String>) -> Ready<Response> {
     ready(page_file(&server, &name))
 }
 
@@ -120,13 +148,18 @@ struct Sent {
 async fn open(
     State(server): State<Arc<Server>>,
     Query(Sent { name }): Query<Sent>,
-    body: Result<Bytes, BytesRejection>,
+    request: Request,
 ) -> Response {
     let refuse = |status: StatusCode, message: String| {
         (server.log)(&format!("refused a file: {message}"));
         (status, message).into_response()
     };
-    let Ok(bytes) = body else { return too_large(&server) };
+    let body = Bytes::from_request(request, &());
+    let bytes = match tokio::time::timeout(BODY_PATIENCE, body).await {
+        Ok(Ok(bytes)) => bytes,
+        Ok(Err(_)) => return too_large(&server),
+        Err(_) => return refuse(StatusCode::REQUEST_TIMEOUT, "it did not come to its end".into()),
+    };
     let Some(name) = file_name(&name) else {
         let known = ACCEPTS.join(", ");
         return refuse(
@@ -135,7 +168,7 @@ async fn open(
         );
     };
     let desk = Arc::clone(&server.desk);
-    let read = move || desk.open_sent(&name, &bytes).map_err(|e| e.to_string());
+    let read = move || aside(|| desk.open_sent(&name, &bytes).map_err(|e| e.to_string()));
     match tokio::task::spawn_blocking(read).await {
         Ok(Ok(())) => StatusCode::NO_CONTENT.into_response(),
         Ok(Err(message)) => (StatusCode::UNPROCESSABLE_ENTITY, message).into_response(),
@@ -165,12 +198,13 @@ async fn export(
     Query(Wanted { run, format }): Query<Wanted>,
 ) -> Response {
     let desk = Arc::clone(&server.desk);
-    let written = tokio::task::spawn_blocking(move || desk.export(run, &format)).await;
+    let written = tokio::task::spawn_blocking(move || aside(|| desk.export(run, &format))).await;
     match written {
-        Ok(Ok((name, bytes))) => {
+        Ok(Ok(Exported { name, bytes, version })) => {
             let attached = format!("attachment; filename*=UTF-8''{}", escaped(&name));
             let kind = (header::CONTENT_TYPE, "application/octet-stream".to_owned());
-            ([kind, (header::CONTENT_DISPOSITION, attached)], bytes).into_response()
+            let version = (VERSION, version.to_string());
+            ([kind, (header::CONTENT_DISPOSITION, attached), version], bytes).into_response()
         }
         Ok(Err(error)) => (StatusCode::NOT_FOUND, error.to_string()).into_response(),
         Err(_) => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
@@ -195,23 +229,8 @@ async fn converse(mut socket: WebSocket, server: Arc<Server>) {
     let mut events = server.desk.events();
     let mut live = server.desk.live();
     live.mark_changed();
-    let (wishes, mut waiting) = mpsc::channel::<Wish>(WISHES);
-    let (answers, mut answered) = mpsc::channel::<Outgoing>(WISHES);
-    let desk = Arc::clone(&server.desk);
-    tokio::spawn(async move {
-        while let Some(wish) = waiting.recv().await {
-            let desk = Arc::clone(&desk);
-            let all = tokio::task::spawn_blocking(move || desk.answer(wish)).await;
-            let all = all.unwrap_or_else(|_| {
-                vec![desk::fault("message", "answering broke off: please report it")]
-            });
-            for outgoing in all {
-                if answers.send(outgoing).await.is_err() {
-                    return;
-                }
-            }
-        }
-    });
+    let (answers, mut answered) = mpsc::channel::<Outgoing>(ANSWERS);
+    let lanes = Lanes::begin(&server.desk, &answers);
     let mut pending = server.desk.greeting();
     loop {
         for outgoing in pending.drain(..) {
@@ -223,7 +242,7 @@ async fn converse(mut socket: WebSocket, server: Arc<Server>) {
             message = socket.recv() => match message {
                 Some(Ok(Message::Text(text))) => match serde_json::from_str::<Wish>(&text) {
                     Ok(Wish::Cancel) => server.desk.cancel(),
-                    Ok(wish) => if wishes.try_send(wish).is_err() {
+                    Ok(wish) => if !lanes.wish(wish) {
                         pending.push(desk::fault("message", "too much at once: wait for the answers"));
                     },
                     Err(error) => {

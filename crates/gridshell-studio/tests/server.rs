@@ -2,121 +2,19 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod up;
+
 use futures_util::{SinkExt, StreamExt};
 use gridshell::io::Opening;
 use gridshell::job::Job;
-use gridshell_studio::{Options, Studio};
-use serde_json::{Value, json};
+use serde_json::json;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::TcpStream;
+use tokio_tungstenite::tungstenite::Message;
 use tokio_tungstenite::tungstenite::client::IntoClientRequest;
-use tokio_tungstenite::tungstenite::{self, Message};
-
-type Socket = tokio_tungstenite::WebSocketStream<TcpStream>;
-
-/// A server that is up.
-struct Up {
-    host: String,
-    token: String,
-    log: Arc<Mutex<Vec<String>>>,
-}
-
-async fn up() -> Up {
-    let log: Arc<Mutex<Vec<String>>> = Arc::default();
-    let lines = Arc::clone(&log);
-    let page = tempfile::tempdir().unwrap();
-    std::fs::write(page.path().join("index.html"), "the page").unwrap();
-    let options = Options {
-        surface: "hexagon".into(),
-        port: 0,
-        log: Arc::new(move |line: &str| lines.lock().unwrap().push(line.to_owned())),
-        page: Some(PathBuf::from(page.path())),
-        state: None,
-        report: Some(|grid| format!("{} nodes", grid.grid.xyz.len())),
-        memory_limit: None,
-    };
-    let studio = Studio::bind(options).await.unwrap();
-    let address = studio.address();
-    let mut parts = address.trim_start_matches("http://").trim_end_matches('/').split('/');
-    let up = Up { host: parts.next().unwrap().into(), token: parts.next().unwrap().into(), log };
-    tokio::spawn(studio.serve());
-    up
-}
-
-impl Up {
-    /// Send bytes as they are; the answer.
-    async fn raw(&self, request: &str, body: &[u8]) -> String {
-        let mut stream = TcpStream::connect(&self.host).await.unwrap();
-        stream.write_all(request.as_bytes()).await.unwrap();
-        // A server that refuses by the head need not read the body.
-        let _ = stream.write_all(body).await;
-        let mut answer = Vec::new();
-        let _ =
-            tokio::time::timeout(Duration::from_secs(20), stream.read_to_end(&mut answer)).await;
-        String::from_utf8_lossy(&answer).into_owned()
-    }
-
-    async fn get(&self, path: &str, host: &str, more: &str) -> String {
-        let head =
-            format!("GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n{more}\r\n");
-        self.raw(&head, b"").await
-    }
-
-    async fn post(&self, path: &str, body: &[u8]) -> String {
-        let (host, length) = (&self.host, body.len());
-        let head = format!(
-            "POST {path} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\nContent-Length: {length}\r\nConnection: close\r\n\r\n"
-        );
-        self.raw(&head, body).await
-    }
-
-    async fn connect(
-        &self,
-        token: &str,
-        origin: Option<&str>,
-    ) -> Result<Socket, tungstenite::Error> {
-        let mut request = format!("ws://{}/{token}/socket", self.host).into_client_request()?;
-        if let Some(origin) = origin {
-            request.headers_mut().insert("Origin", origin.parse().unwrap());
-        }
-        let stream = TcpStream::connect(&self.host).await?;
-        Ok(tokio_tungstenite::client_async(request, stream).await?.0)
-    }
-
-    async fn tab(&self) -> Socket {
-        self.connect(&self.token, Some(&format!("http://{}", self.host))).await.unwrap()
-    }
-
-    fn logged(&self, words: &str) -> bool {
-        self.log.lock().unwrap().iter().any(|line| line.contains(words))
-    }
-}
-
-async fn say(socket: &mut Socket, message: &Value) {
-    socket.send(Message::Text(message.to_string().into())).await.unwrap();
-}
-
-/// The next message of one of these kinds.
-async fn hear(socket: &mut Socket, kinds: &[&str]) -> Value {
-    let heard = async {
-        loop {
-            let message = socket.next().await.expect("the socket is open").expect("a message");
-            let Message::Text(text) = message else { continue };
-            let event: Value = serde_json::from_str(&text).unwrap();
-            if kinds.iter().any(|k| event["kind"] == *k) {
-                return event;
-            }
-        }
-    };
-    tokio::time::timeout(Duration::from_secs(120), heard).await.expect("an answer in time")
-}
-
-fn status(answer: &str) -> &str {
-    answer.split_whitespace().nth(1).unwrap_or("none")
-}
+use up::{generate, hear, say, status, up};
 
 #[tokio::test(flavor = "multi_thread")]
 async fn strangers_are_refused_and_logged() {
@@ -141,6 +39,126 @@ async fn strangers_are_refused_and_logged() {
     assert!(up.connect(&up.token, Some("http://other.example")).await.is_err());
     assert!(up.connect(&up.token, None).await.is_err());
     assert!(up.logged("no Origin"));
+}
+
+/// The pass that comes with the page serves for the token in every request after it, and from our own pages only.
+#[tokio::test(flavor = "multi_thread")]
+async fn after_the_first_request_a_cookie_serves_for_the_token() {
+    let up = up().await;
+    let first = up.get(&format!("/{}/", up.token), &up.host, "").await;
+    let lines = first.lines().find_map(|l| l.strip_prefix("set-cookie: "));
+    let given = lines.expect("a cookie comes with the page");
+    for word in ["HttpOnly", "SameSite=Strict", "Path=/"] {
+        assert!(given.contains(word), "{given}");
+    }
+    assert!(!given.contains(&up.token) && !given.contains("Domain"), "{given}");
+    let pass = given.split(';').next().unwrap();
+    let cookie = format!("Cookie: other=1; {pass}\r\n");
+    for (path, said) in [("/", "the page"), ("/main.js", "the script")] {
+        let answer = up.get(path, &up.host, &cookie).await;
+        assert_eq!(status(&answer), "200", "{path}");
+        assert!(answer.ends_with(said) && !answer.contains("set-cookie"), "{answer}");
+        assert_eq!(status(&up.get(path, &up.host, "").await), "403", "{path} without it");
+    }
+    for site in ["same-site", "cross-site"] {
+        let more = format!("{cookie}Sec-Fetch-Site: {site}\r\n");
+        assert_eq!(status(&up.get("/", &up.host, &more).await), "403", "{site}");
+    }
+    assert!(up.logged("another page's request"));
+    // The socket and files go by it too, if they have our Origin.
+    let origin = format!("http://{}", up.host);
+    for (origin, open) in [(Some(&*origin), true), (None, false), (Some("http://a.example"), false)]
+    {
+        let mut request = format!("ws://{}/socket", up.host).into_client_request().unwrap();
+        request.headers_mut().insert("Cookie", pass.parse().unwrap());
+        if let Some(origin) = origin {
+            request.headers_mut().insert("Origin", origin.parse().unwrap());
+        }
+        let stream = TcpStream::connect(&up.host).await.unwrap();
+        let opened = tokio_tungstenite::client_async(request, stream).await;
+        assert_eq!(opened.is_ok(), open, "{origin:?}");
+    }
+    let head = format!(
+        "POST /open?name=bad.obj HTTP/1.1\r\nHost: {0}\r\nOrigin: {origin}\r\n{cookie}Content-Length: 4\r\nConnection: close\r\n\r\n",
+        up.host
+    );
+    assert_eq!(status(&up.raw(&head, b"oops").await), "422");
+}
+
+/// Every answer, refusals too, says that no other site may use it.
+#[tokio::test(flavor = "multi_thread")]
+async fn all_answers_have_the_headers_that_keep_others_out() {
+    let up = up().await;
+    let token = format!("/{}", up.token);
+    for path in [
+        "/".into(),
+        format!("{token}/"),
+        format!("{token}/none"),
+        format!("{token}/export?run=9&format=obj"),
+    ] {
+        let answer = up.get(&path, &up.host, "").await.to_lowercase();
+        for header in [
+            "cross-origin-resource-policy: same-origin",
+            "cross-origin-opener-policy: same-origin",
+            "x-content-type-options: nosniff",
+            "referrer-policy: no-referrer",
+            "cache-control: no-store",
+            "content-security-policy: default-src 'none'; script-src 'self'; style-src 'self';",
+        ] {
+            assert!(answer.contains(header), "{path}: {header} in {answer}");
+        }
+        assert!(!answer.contains("unsafe-inline"), "{path}");
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn requests_that_say_two_things_are_refused() {
+    let up = up().await;
+    let (host, path) = (&up.host, format!("/{}/", up.token));
+    for (target, hosts) in [
+        (format!("http://evil.example{path}"), vec![&**host]),
+        (format!("http://{host}{path}"), vec![&**host]),
+        (path.clone(), vec![&**host, "evil.example"]),
+        (path.clone(), vec!["evil.example", &**host]),
+        (path.clone(), vec![&**host, &**host]),
+        (path.clone(), vec![]),
+    ] {
+        let hosts = hosts.iter().map(|h| format!("Host: {h}\r\n")).collect::<Vec<_>>().concat();
+        let head = format!("GET {target} HTTP/1.1\r\n{hosts}Connection: close\r\n\r\n");
+        let answer = up.raw(&head, b"").await;
+        assert!(["400", "403"].contains(&status(&answer)), "{head}{answer}");
+        assert!(!answer.contains("the page"));
+    }
+}
+
+/// Requests that never come to their end are given up, wherever they stop; tabs without a word are not.
+#[tokio::test(flavor = "multi_thread")]
+async fn half_requests_are_given_up() {
+    let up = up().await;
+    let mut tab = up.tab().await;
+    hear(&mut tab, &["idle"]).await;
+    let (host, path) = (&up.host, format!("/{}/", up.token));
+    let halves = [
+        String::new(),
+        "GE".into(),
+        format!("GET {path} HTTP/1.1\r\nHost: {host}\r\n"),
+        format!(
+            "POST {path}open?name=a.obj HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\nContent-Length: 100\r\n\r\nv 0"
+        ),
+    ];
+    let mut streams = Vec::new();
+    for half in &halves {
+        let mut stream = TcpStream::connect(host).await.unwrap();
+        stream.write_all(half.as_bytes()).await.unwrap();
+        streams.push(stream);
+    }
+    for (half, mut stream) in halves.iter().zip(streams) {
+        let mut answer = Vec::new();
+        let ended = tokio::time::timeout(Duration::from_secs(90), stream.read_to_end(&mut answer));
+        assert!(ended.await.is_ok(), "still open: {half:?}");
+    }
+    say(&mut tab, &json!({ "kind": "distance", "from": [0, 0, 0], "to": [3, 4, 0] })).await;
+    assert_eq!(hear(&mut tab, &["distance"]).await["straight"], 5.0);
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -294,19 +312,6 @@ async fn what_is_too_large_is_refused() {
     hear(&mut up.tab().await, &["hello"]).await;
 }
 
-async fn generate(up: &Up, tab: &mut Socket) -> u64 {
-    say(tab, &json!({ "kind": "generate", "values": { "effort": "draft", "edge_length": 0.8 } }))
-        .await;
-    let runs = loop {
-        let runs = hear(tab, &["runs", "fault"]).await;
-        assert_eq!(runs["kind"], "runs", "{runs} {:?}", up.log);
-        if runs["newest"].is_u64() {
-            break runs;
-        }
-    };
-    runs["newest"].as_u64().unwrap()
-}
-
 #[tokio::test(flavor = "multi_thread")]
 async fn two_hundred_edits_and_many_reconnections_lose_nothing() {
     let up = up().await;
@@ -374,8 +379,13 @@ async fn a_run_can_be_cancelled_and_survives_its_tab() {
     hear(&mut tab, &["progress"]).await;
     drop(tab);
     let mut tab = up.tab().await;
+    let mut runs = hear(&mut tab, &["runs"]).await;
     let told = hear(&mut tab, &["progress", "idle"]).await;
     assert_eq!(told["kind"], "progress", "the run goes on without its tab");
+    // Who cancels before there is any grid gets none.
+    while !runs["newest"].is_u64() {
+        runs = hear(&mut tab, &["runs"]).await;
+    }
     say(&mut tab, &json!({ "kind": "generate", "values": {} })).await;
     assert_eq!(hear(&mut tab, &["fault"]).await["about"], "generate");
     say(&mut tab, &json!({ "kind": "cancel" })).await;

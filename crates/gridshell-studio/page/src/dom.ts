@@ -12,7 +12,9 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
     if (value === undefined || value === false) continue;
-    element.setAttribute(name, value === true ? "" : String(value));
+    // The attribute would be refused: the page's policy allows no styles inside elements.
+    if (name === "style") element.style.cssText = String(value);
+    else element.setAttribute(name, value === true ? "" : String(value));
   }
   element.append(...children.filter((c): c is Node | string => Boolean(c)));
   for (const [name, handler] of Object.entries(handlers)) {

@@ -4,6 +4,8 @@ import type { Step } from "./messages";
 
 type Edit = Record<string, unknown>;
 
+const LOOKING = "Looking for edits that better the grid …";
+
 export class Editing {
   readonly element = el("section", { class: "editing", hidden: true, "aria-label": "Edit" });
   onEdit: ((edit: Edit) => void) | null = null;
@@ -45,7 +47,7 @@ export class Editing {
       this.past,
     );
     this.hovered([]);
-    this.suggested([]);
+    this.suggested("No grid is shown.");
     this.history([], [], []);
   }
 
@@ -55,9 +57,9 @@ export class Editing {
   }
 
   /** Another run is shown. */
-  run(_run: number): void {
+  run(run: number): void {
     this.selected([], 0);
-    this.suggested([]);
+    this.suggested(run ? LOOKING : "No grid is shown.");
     this.hovered([]);
   }
 
@@ -111,7 +113,17 @@ export class Editing {
     );
   }
 
-  suggested(steps: Step[]): void {
+  /** Suggestions are asked for. */
+  looking(): void {
+    this.suggested(LOOKING);
+  }
+
+  /** The suggestions, or why there are none yet. */
+  suggested(steps: Step[] | string): void {
+    if (typeof steps === "string") {
+      this.better.replaceChildren(el("li", { class: "hint" }, [steps]));
+      return;
+    }
     const rows = steps.map((step) =>
       el("li", {}, [
         el(

@@ -7,17 +7,28 @@ import { Editing } from "./editing";
 import { Form } from "./form";
 import { type Frame, Link } from "./link";
 import type { Event, Hello, Picked, Progress, RunSummary, SurfaceInfo } from "./messages";
+import { Notices } from "./notices";
 import { gradient, THEMES } from "./palette";
 import { Recovery } from "./recovery";
 import { Report } from "./report";
+import { download, Saving } from "./saving";
 import { type Side, View } from "./view";
 
 const app = document.getElementById("app")!;
+/** Take the token out of the address, once the cookie that came with the page does as well. */
+async function clean(): Promise<void> {
+  if (location.pathname === "/") return;
+  const answer = await fetch("/").catch(() => null);
+  if (answer?.ok) history.replaceState(null, "", "/");
+}
+void clean();
 const form = new Form();
 const report = new Report();
 const choosing = new Choosing();
 const candidates = new Candidates();
 const recovery = new Recovery();
+const notices = new Notices();
+const saving = new Saving(notices, say, (run, version) => link.send({ kind: "saved", run, version }));
 const toast = el("div", { class: "toast", role: "alert", hidden: true });
 const status = el("output", { class: "status", "aria-live": "polite" }, ["connecting …"]);
 
@@ -108,7 +119,7 @@ hostB.append(selectB);
 const rubber = el("div", { class: "rubber", hidden: true });
 const stage = el("div", { class: "stage" }, [host, hostB, legend, tip, rubber, recovery.element, toast]);
 const tabs = el("div", { class: "runs", role: "tablist", "aria-label": "Runs" });
-const centre = el("main", { class: "centre" }, [toolbar, stage, tabs]);
+const centre = el("main", { class: "centre" }, [toolbar, notices.element, stage, tabs]);
 
 /* Right: what it is worth. */
 const editing = new Editing();
@@ -189,7 +200,11 @@ function onEvent(event: Event): void {
       formOf = event.run;
       return askEstimate();
     case "left":
-      return recovery.show(event.sessions);
+      return recovery.show(event.sessions, event.more);
+    case "autosave":
+      return onAutosave(event.fault);
+    case "put_away":
+      return onPutAway(event.grids);
     case "run":
       if (event.summary.run !== shown) return;
       report.show(event);
@@ -399,6 +414,23 @@ function onRuns(all: RunSummary[], newest: number | null): void {
   selectB.replaceChildren(...options);
 }
 
+function onAutosave(fault: string | null): void {
+  if (fault !== null) {
+    const text = `Grids cannot be kept against crashes: ${fault}. Save what you need.`;
+    notices.set("autosave", text, true);
+  } else if (notices.drop("autosave")) say("Grids are kept against crashes again.");
+}
+
+/** Grids that made way, the newest last. */
+const away: string[] = [];
+function onPutAway(grids: string[]): void {
+  away.push(...grids);
+  const told = away.slice(-3).toReversed().join(" · ");
+  const more = away.length > 3 ? ` · and ${away.length - 3} before` : "";
+  const text = `Put away to make room, as nothing in it was changed by hand: ${told}${more}. Edited grids stay.`;
+  notices.set("put away", text);
+}
+
 function showTabs(): void {
   const live = el(
     "button",
@@ -429,7 +461,11 @@ function tab(run: RunSummary): HTMLElement {
       "data-run": run.run,
     },
     [
-      el("b", {}, [`${run.title}`]),
+      el("b", {}, [
+        run.title,
+        run.unsaved &&
+          el("em", { class: "unsaved", title: "With changes that are in no file yet" }, ["unsaved"]),
+      ]),
       el("span", {}, [run.detail]),
       el("span", {}, [`${run.nodes.toLocaleString("en")} nodes · ${run.irregular} irregular · Q ${q}`]),
     ],
@@ -485,6 +521,7 @@ let suggesting: ReturnType<typeof setTimeout> | undefined;
 /** After an edit the old suggestions no longer hold. */
 function askSuggestions(): void {
   clearTimeout(suggesting);
+  editing.looking();
   suggesting = setTimeout(() => link.send({ kind: "suggest", run: shown }), 400);
 }
 
@@ -582,9 +619,14 @@ colorings.onchange = () => {
   }
 };
 
-save.onclick = () => exportAs("gridshell");
+save.onclick = () => {
+  const run = runs.find((r) => r.run === shown);
+  if (run) void saving.save(run);
+  else say("generate a grid first", true);
+};
 formats.onchange = () => {
-  exportAs(formats.value);
+  if (formats.value === "gridshell") save.click();
+  else exportAs(formats.value);
   formats.value = "";
 };
 
@@ -600,13 +642,6 @@ picture.onclick = async () => {
   download(address, `${surface?.name ?? "view"}.png`);
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 };
-
-function download(address: string, as: string): void {
-  const a = el("a", { href: address, download: as });
-  document.body.append(a);
-  a.click();
-  a.remove();
-}
 
 function look(side: Side): void {
   view.look(side);
@@ -805,7 +840,11 @@ function draw(points: Point[] | null): void {
 editing.onEdit = (edit) => link.send({ kind: "edit", run: shown, edit });
 editing.onUndo = () => link.send({ kind: "undo", run: shown });
 editing.onRedo = () => link.send({ kind: "redo", run: shown });
-editing.onSuggest = () => link.send({ kind: "suggest", run: shown });
+editing.onSuggest = () => {
+  if (!shown) return;
+  editing.looking();
+  link.send({ kind: "suggest", run: shown });
+};
 editing.onPoint = (nodes) => {
   view.grid.mark(nodes);
   view.redraw();

@@ -123,7 +123,15 @@ question: number, } | { "kind": "suggest",
 /**
  * Which run.
  */
-run: number, } | { "kind": "forget", 
+run: number, } | { "kind": "saved", 
+/**
+ * Which run.
+ */
+run: number, 
+/**
+ * The version that the file's answer told.
+ */
+version: number, } | { "kind": "forget", 
 /**
  * Which one.
  */
@@ -212,7 +220,19 @@ values: Record<string, unknown>, } | { "kind": "left",
 /**
  * They.
  */
-sessions: Array<Left>, } | { "kind": "history", 
+sessions: Array<Left>, 
+/**
+ * So many more are offered when these are dealt with.
+ */
+more: number, } | { "kind": "put_away", 
+/**
+ * A line on each.
+ */
+grids: Array<string>, } | { "kind": "autosave", 
+/**
+ * Why they cannot be; null where they are.
+ */
+fault: string | null, } | { "kind": "history", 
 /**
  * Which run.
  */
@@ -441,7 +461,24 @@ seconds: number,
 /**
  * A line on each of its grids.
  */
-grids: Array<string>, };
+grids: Array<string>, 
+/**
+ * Those that cannot be recovered.
+ */
+damaged: Array<Damaged>, 
+/**
+ * The folder that they are in.
+ */
+folder: string, };
+export type Damaged = { 
+/**
+ * Its name in its session's folder.
+ */
+file: string, 
+/**
+ * What is wrong with it.
+ */
+reason: string, };
 export type Fact = { 
 /**
  * Its name.
@@ -496,7 +533,11 @@ fluency: number | null,
 /**
  * Irregular nodes.
  */
-irregular: number, };
+irregular: number, 
+/**
+ * Whether it has changes by hand that are in no file of the user's.
+ */
+unsaved: boolean, };
 export type RunInfo = { 
 /**
  * In one line.

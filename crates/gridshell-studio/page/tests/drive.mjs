@@ -57,9 +57,15 @@ export function browse() {
   });
 }
 
-/** A tab at `address`; faults of the page go to `errors`. */
+/** A tab at `address`, in a browser that lets pages download only; faults of the page go to `errors`. */
 export async function open(browser, address, errors) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
+  await page.addInitScript(() => delete window.showSaveFilePicker);
+  return visit(page, address, errors);
+}
+
+/** Go there, and wait until it is ready. */
+export async function visit(page, address, errors) {
   page.on("pageerror", (error) => errors.push(String(error)));
   await page.goto(address);
   await page.waitForSelector("#generate:enabled", PATIENCE);
@@ -113,6 +119,13 @@ export async function downloaded(page, name, act) {
   const [download] = await Promise.all([page.waitForEvent("download", PATIENCE), act()]);
   const path = join(folder, name);
   await download.saveAs(path);
+  return path;
+}
+
+/** Save the shown grid by the keys, and say that it is there; the path. */
+export async function saved(page, name) {
+  const path = await downloaded(page, name, () => page.keyboard.press("Control+s"));
+  await page.getByRole("button", { name: "It is there" }).click();
   return path;
 }
 

@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import * as drive from "./drive.mjs";
-import { PATIENCE, choose, downloaded, editing, finished, folder, generate, seen } from "./drive.mjs";
+import { PATIENCE, choose, editing, finished, folder, generate, saved as save, seen } from "./drive.mjs";
 
 let browser;
 const errors = [];
@@ -19,7 +19,6 @@ after(async () => {
 
 const nodes = (path) => JSON.parse(readFileSync(path, "utf8")).nodes;
 const edits = (path) => JSON.parse(readFileSync(path, "utf8")).edits;
-const save = (page, name) => downloaded(page, name, () => page.keyboard.press("Control+s"));
 
 test("a grid is edited, saved and opened again: the same nodes, recipe and edits, to be gone on with", async () => {
   const studio = await drive.start("hexagon", "--no-autosave");

@@ -107,6 +107,30 @@ test("a run is cancelled, and goes on when the page is loaded again", async () =
   await page.close();
 });
 
+test("while a run goes on, another grid is edited: suggestions, tips and operations come", async () => {
+  const page = await open();
+  await choose(page, "hexagon");
+  await finished(page, await generate(page, { effort: "draft", edge_length: "0.7" }));
+  await page.getByRole("button", { name: "Top", exact: true }).click();
+  const mine = (await seen(page)).shown;
+  await choose(page, "great-court");
+  await generate(page, { effort: "best", edge_length: "1" });
+  await page.waitForFunction((m) => (window.studio.seen.runs.at(-1)?.run ?? 0) > m, mine, PATIENCE);
+  await page.waitForFunction(() => window.studio.seen.liveFrames > 5, null, PATIENCE);
+  await page.locator(`[data-run="${mine}"]`).click();
+  await page.click("#edit");
+  await page.waitForFunction(
+    () => !document.querySelector(".steps:not(.history)").textContent.includes("Looking"),
+    null,
+    PATIENCE,
+  );
+  await editing(page, "s", 2);
+  assert.ok(await page.locator("#cancel").isEnabled(), "the run still goes on");
+  await page.click("#cancel");
+  await page.waitForSelector("#generate:enabled", PATIENCE);
+  await page.close();
+});
+
 test("a broken file is refused with a clear message, and all stays as it was", async () => {
   const page = await open();
   await choose(page, "hexagon");

@@ -10,6 +10,7 @@ use glam::DVec3;
 use gridshell::edit::{Edit, Editor};
 use gridshell::error::{Error, Result};
 use gridshell::io::Choice;
+use gridshell::job::Job;
 use gridshell::pipeline;
 use gridshell::recipe::Recipe;
 use gridshell::stages::measure::irregular_nodes;
@@ -91,21 +92,26 @@ impl Desk {
             }
             Request::Take { run, index } => self.take(run, index),
             Request::Edit { run, edit } => self.edit(run, edit),
-            Request::Undo { run } => self.edited(run, |editor| done(editor.undo(), "undo")),
-            Request::Redo { run } => self.edited(run, |editor| done(editor.redo(), "redo")),
+            Request::Undo { run } => {
+                self.change(run, "undo", |editor, _| done(editor.undo(), "undo"))
+            }
+            Request::Redo { run } => {
+                self.change(run, "redo", |editor, _| done(editor.redo(), "redo"))
+            }
             Request::Hover { run, nodes, question } => {
-                let laid = self.laid(run)?;
-                one(laid.edit(|editor| Ok(editing::hover(run, question, editor, nodes)))?)
+                let trial = self.laid(run)?.trial()?;
+                one(editing::hover(run, question, &trial, nodes))
             }
             Request::Suggest { run } => {
-                let laid = self.laid(run)?;
-                one(laid.edit(|editor| Ok(editing::suggest(run, editor)))?)
+                let trial = self.laid(run)?.trial()?;
+                one(editing::suggest(run, &trial))
+            }
+            Request::Saved { run, version } => {
+                self.saved(run, version)?;
+                Ok(Vec::new())
             }
             Request::Forget { run } => {
-                let mut state = self.state();
-                state.runs.retain(|r| r.number != run);
-                state.no_longer(run);
-                self.tell(runs(&state));
+                self.forget(run);
                 Ok(Vec::new())
             }
         }
@@ -155,21 +161,24 @@ impl Desk {
     /// Do an edit.
     fn edit(self: &Arc<Self>, run: u32, edit: Value) -> Result<Vec<Outgoing>> {
         let edit = editing::parse(edit, self.laid(run)?.opened.model.origin())?;
-        let work = self.begin(run, &edit.to_string())?;
-        self.edited(run, |editor| {
-            let done = editor.apply_with(edit, &work.job).map(|_| ());
+        let what = edit.to_string();
+        self.change(run, &what, |editor, job| {
+            let done = editor.apply_with(edit, job).map(|_| ());
             done.map_err(|refusal| Error::Option(refusal.to_string()))
         })
     }
 
-    /// Change a run's grid; every tab is told.
-    fn edited(
-        &self,
+    /// Change a run's grid; every tab is told. One change goes on at a time.
+    pub(super) fn change(
+        self: &Arc<Self>,
         run: u32,
-        work: impl FnOnce(&mut Editor) -> Result<()>,
+        what: &str,
+        change: impl FnOnce(&mut Editor, &Job) -> Result<()>,
     ) -> Result<Vec<Outgoing>> {
+        // Before the grid is looked for: one that is being changed is not put away.
+        let work = self.begin(run, what)?;
         let laid = self.laid(run)?;
-        laid.change(work)?;
+        laid.change(&work.job, change)?;
         for outgoing in self.look(run, None)? {
             self.send(outgoing);
         }
@@ -178,6 +187,8 @@ impl Desk {
             session.save(&laid);
         }
         self.tell(runs(&state));
+        drop(state);
+        drop(work);
         Ok(Vec::new())
     }
 
@@ -190,10 +201,10 @@ impl Desk {
                 found.ok_or_else(|| Error::Option(format!("no stage `{name}` with a grid")))?;
             return Ok(vec![Outgoing::Frame(scene::grid(Shows::Stage, run, grid))]);
         }
-        let summary = laid.summary();
+        self.used(&laid);
         let now = laid.now();
-        let info = measures::told(summary, &laid, &now);
-        let history = editing::history(run, &laid.document.edits, now.editor.as_ref());
+        let info = measures::told(laid.summary(), &laid, &now);
+        let history = now.history.clone();
         let frame = scene::grid(Shows::Grid, run, &now.grid);
         Ok(vec![
             Outgoing::Frame(frame),

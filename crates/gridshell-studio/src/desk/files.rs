@@ -2,6 +2,7 @@
 
 use super::{Desk, left, recipe, shown};
 use crate::laid::Laid;
+use crate::message::Event;
 use crate::opened::{self, Opened};
 use crate::session::{Ended, Session};
 use axum::body::Bytes;
@@ -21,7 +22,9 @@ impl Desk {
         let path = Path::new(name_or_path);
         let job = &self.opening();
         if is_grid(path) {
-            return self.put_grid(io::read_document(path, job)?, Some(path)).map(|_| ());
+            return self
+                .put_grid(io::read_document(path, job)?, Some(path), |laid| laid)
+                .map(|_| ());
         }
         self.put(&Arc::new(Opened::named(name_or_path, &Opening::default(), job)?));
         Ok(())
@@ -36,7 +39,7 @@ impl Desk {
         if is_grid(Path::new(name)) {
             let document =
                 opened::in_folder(name, file, |path| io::read_document(path, &self.job()))?;
-            return self.put_grid(document, None).map(|_| ());
+            return self.put_grid(document, None, |laid| laid).map(|_| ());
         }
         self.put(&Arc::new(Opened::sent(name, file, &Opening::default(), &self.opening())?));
         Ok(())
@@ -46,12 +49,31 @@ impl Desk {
     ///
     /// # Errors
     /// What the system says.
-    pub fn keep_in(&self, folder: &Path, log: crate::Log) -> std::io::Result<()> {
-        let session = Session::begin(folder, log)?;
+    pub fn keep_in(self: &Arc<Self>, folder: &Path, log: crate::Log) -> std::io::Result<()> {
+        let desk = Arc::downgrade(self);
+        let told = move |fault: Option<String>| {
+            match &fault {
+                Some(fault) => log(&format!("autosave: {fault}")),
+                None => log("autosave works again"),
+            }
+            if let Some(desk) = desk.upgrade() {
+                desk.autosave(fault);
+            }
+        };
+        let session = Session::begin(folder, Arc::new(told))?;
+        let (left, more) = session.left(folder);
         let mut state = self.state();
-        state.left = session.left(folder);
-        state.session = Some(session);
+        state.left = left;
+        state.left_more = more as u32;
+        state.session = Some(Arc::new(session));
         Ok(())
+    }
+
+    /// Grids cannot be kept against crashes, or can again: every tab is told.
+    pub fn autosave(&self, fault: Option<String>) {
+        let mut state = self.state();
+        state.autosave.clone_from(&fault);
+        self.tell(Event::Autosave { fault });
     }
 
     pub(super) fn put(&self, opened: &Arc<Opened>) {
@@ -65,8 +87,13 @@ impl Desk {
     }
 
     /// Put a grid on the desk with the surface that it lies on; `path` says where its file is, if it may say what
-    /// else is read. Gives its number.
-    fn put_grid(&self, document: Document, path: Option<&Path>) -> Result<u32> {
+    /// else is read, and `as_what` what it is beside a file of the user's.
+    fn put_grid(
+        &self,
+        document: Document,
+        path: Option<&Path>,
+        as_what: impl FnOnce(Laid) -> Laid,
+    ) -> Result<Arc<Laid>> {
         let job = &self.opening();
         let (opened, notes) = self.surface_of(&document, path, job)?;
         let model = opened.reference.is_some().then_some(&opened.model);
@@ -80,8 +107,7 @@ impl Desk {
             self.tell(event);
         }
         drop(state);
-        self.keep(Laid::of_file(number, read, opened));
-        Ok(number)
+        Ok(self.keep(as_what(Laid::of_file(number, read, opened))))
     }
 
     /// The surface that a grid lies on, else the grid itself, with a note on that.
@@ -118,12 +144,12 @@ impl Desk {
         }
     }
 
-    /// Put the grids of an earlier session on the desk; it is cleared away when they are kept in this one.
+    /// Put the grids of an earlier session on the desk. Each is cleared away there once it is kept in this one; those
+    /// that cannot be put on the desk stay, and are told.
     pub(super) fn recover(&self, session: &str) -> Result<()> {
         let mut ended = self.take_left(session)?;
-        let grids = std::mem::take(&mut ended.grids);
-        let mut laid = Vec::new();
-        for (path, document) in grids {
+        let mut back = Vec::new();
+        for (path, document) in std::mem::take(&mut ended.grids) {
             // A session's own copies only: the grid may have come from the page, with any path.
             let own = match &document.surface {
                 Some(Reference::File { path: to, .. }) => {
@@ -131,15 +157,24 @@ impl Desk {
                 }
                 _ => true,
             };
-            let number = self.put_grid(document, own.then_some(&path))?;
-            laid.push(self.laid(number)?);
-        }
-        if let Some(session) = &self.state().session {
-            for laid in &laid {
-                session.save(laid);
+            match self.put_grid(document, own.then_some(&path), Laid::recovered) {
+                Ok(laid) => back.push((path, laid.number)),
+                Err(error) => ended.damage(&path, &error.to_string()),
             }
-            session.settle();
-            ended.discard();
+        }
+        // Not while the state is locked: writing may take long.
+        let session = self.state().session.clone();
+        if let Some(session) = session {
+            let numbers: Vec<u32> = back.iter().map(|b| b.1).collect();
+            let written = session.settle(&numbers);
+            let kept = back.iter().zip(written).filter(|b| b.1);
+            kept.for_each(|((path, _), _)| Ended::remove(path));
+        }
+        ended.clear();
+        if !ended.is_done() {
+            let mut state = self.state();
+            state.left.push(ended);
+            self.tell(left(&state));
         }
         Ok(())
     }

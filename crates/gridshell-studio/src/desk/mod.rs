@@ -2,8 +2,9 @@
 
 mod answer;
 mod files;
+mod room;
 
-use crate::export::{self, Report};
+use crate::export::{self, Exported, Report};
 use crate::form::{self, Values};
 use crate::laid::Laid;
 use crate::laying::{self, Going};
@@ -18,8 +19,6 @@ use gridshell::recipe::Recipe;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::sync::{broadcast, watch};
 
-/// Runs that are kept; the oldest go first.
-const MOST_RUNS: usize = 12;
 /// Events that a slow tab may fall behind before it is sent everything anew.
 const BACKLOG: usize = 256;
 
@@ -40,17 +39,24 @@ struct State {
     going: Option<Going>,
     /// What is being opened, or was last.
     opening: Option<Job>,
-    /// Another work that goes on: an edit, say.
-    work: Option<Job>,
+    /// Another work that goes on, an edit, say; and on which run.
+    work: Option<(u32, Job)>,
     /// The recipe of the grid that was opened last, and its number: what the form begins with.
     recipe: Option<(u32, Recipe)>,
     /// Where grids are kept against crashes.
-    session: Option<Session>,
+    session: Option<Arc<Session>>,
+    /// Why they cannot be kept.
+    autosave: Option<String>,
     /// What earlier sessions left.
     left: Vec<Ended>,
+    /// So many more sessions are not read yet.
+    left_more: u32,
+    /// Counts what is looked at.
+    looks: u64,
 }
 
-/// The desk.
+/// The desk. Its state is locked for moments only, never while anything is worked on, read or written: so tabs are
+/// greeted and work is cancelled at any time.
 pub struct Desk {
     report: Option<Report>,
     memory_limit: Option<u64>,
@@ -91,6 +97,7 @@ impl Desk {
         all.extend(recipe(&state).map(Outgoing::Event));
         all.push(Outgoing::Event(runs(&state)));
         all.push(Outgoing::Event(left(&state)));
+        all.push(Outgoing::Event(Event::Autosave { fault: state.autosave.clone() }));
         match &state.going {
             Some(going) => all.push(Outgoing::Event(Event::Progress(going.progress()))),
             None => all.push(Outgoing::Event(Event::Idle { run: None })),
@@ -116,7 +123,8 @@ impl Desk {
     pub fn cancel(&self) {
         let state = self.state();
         let going = state.going.iter().map(|going| &going.job);
-        going.chain(&state.work).chain(&state.opening).for_each(Job::cancel);
+        let work = state.work.iter().map(|work| &work.1);
+        going.chain(work).chain(&state.opening).for_each(Job::cancel);
     }
 
     /// Begin something that may take a while: told of when it does, until it is dropped.
@@ -128,7 +136,7 @@ impl Desk {
                 let message = "another edit goes on: wait for it, or cancel it";
                 return Err(Error::Option(message.into()));
             }
-            state.work = Some(job.clone());
+            state.work = Some((run, job.clone()));
         }
         let (desk, what) = (Arc::downgrade(self), what.to_owned());
         let watched = job.with_progress(move |p| {
@@ -167,22 +175,6 @@ impl Desk {
         form::recipe(values, state.recipe.as_ref().map(|r| &r.1))
     }
 
-    /// Keep a grid; against crashes, too, if it was laid here.
-    pub fn keep(&self, laid: Laid) {
-        let laid = Arc::new(laid);
-        let mut state = self.state();
-        state.runs.push(Arc::clone(&laid));
-        if let (Some(session), true) = (&state.session, laid.run.is_some()) {
-            session.save(&laid);
-        }
-        let surplus = state.runs.len().saturating_sub(MOST_RUNS);
-        let gone: Vec<u32> = state.runs.drain(..surplus).map(|r| r.number).collect();
-        for number in gone {
-            state.no_longer(number);
-        }
-        self.tell(runs(&state));
-    }
-
     /// The run that went on has ended.
     pub fn ended(&self, run: Option<u32>, fault: Option<String>) {
         self.state().going = None;
@@ -203,20 +195,16 @@ impl Desk {
         self.live.send_replace(Some(frame));
     }
 
-    /// The grid of a run in the format of this extension.
+    /// The grid of a run in the format of this extension. Changes nothing: whether the file arrives is not known.
     ///
     /// # Errors
     /// [`Error::Option`] for an unknown run or format.
-    pub fn export(&self, run: u32, extension: &str) -> Result<(String, Vec<u8>)> {
+    pub fn export(&self, run: u32, extension: &str) -> Result<Exported> {
         if !EXPORTS.iter().any(|e| e.0 == extension) {
             return Err(Error::Option(format!("no format `{extension}`")));
         }
         let laid = self.laid(run)?;
-        let file = export::file(&laid, extension, self.report)?;
-        if extension == "gridshell" {
-            self.state().no_longer(run);
-        }
-        Ok(file)
+        export::file(&laid, extension, self.report)
     }
 
     fn opened(&self) -> Result<Arc<Opened>> {
@@ -257,22 +245,13 @@ impl Drop for Work {
     }
 }
 
-impl State {
-    /// A grid need not be kept against crashes any more.
-    fn no_longer(&self, number: u32) {
-        if let Some(session) = &self.session {
-            session.forget(number);
-        }
-    }
-}
-
 fn recipe(state: &State) -> Option<Event> {
     let (run, recipe) = state.recipe.as_ref()?;
     Some(Event::Recipe { run: *run, values: form::values(recipe) })
 }
 
 fn left(state: &State) -> Event {
-    Event::Left { sessions: state.left.iter().map(Ended::told).collect() }
+    Event::Left { sessions: state.left.iter().map(Ended::told).collect(), more: state.left_more }
 }
 
 fn runs(state: &State) -> Event {
@@ -283,3 +262,6 @@ fn runs(state: &State) -> Event {
 fn shown(opened: &Opened) -> [Outgoing; 2] {
     [Outgoing::Event(Event::Surface(opened.info.clone())), Outgoing::Frame(opened.frame.clone())]
 }
+
+#[cfg(test)]
+mod tests;

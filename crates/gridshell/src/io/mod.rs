@@ -54,7 +54,7 @@ pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
 use crate::job::{Job, Picture};
-use crate::surface::{Model, PolygonMesh, Source, builtin, sew};
+use crate::surface::{Model, PolygonMesh, Source, builtin, sew, split_folds};
 use serde::{Deserialize, Serialize};
 use soup::Soup;
 use std::path::Path;
@@ -139,6 +139,7 @@ pub fn load(path: &Path, opening: &Opening, job: &Job) -> Result<Model> {
     match &mut model {
         Model::Brep(brep) => {
             sew(brep, opening.sew, job)?;
+            split_folds(brep, job)?;
             brep.notes.extend(odd);
         }
         Model::Mesh(mesh) => mesh.notes.extend(odd),

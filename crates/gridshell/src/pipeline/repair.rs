@@ -120,6 +120,14 @@ enum Step {
     Move(u32, f64),
 }
 
+/// What a step did.
+enum Done {
+    /// The mesh knows how to take it back.
+    Rejoined,
+    /// A node was here before.
+    Moved(u32, Place, DVec3),
+}
+
 impl Bench<'_> {
     /// The nodes of folded and flat panels, and pairs of nodes at one place.
     fn places(&self) -> Vec<Few> {
@@ -196,28 +204,29 @@ impl Bench<'_> {
         seeds.dedup();
         let before = self.badness(&seeds);
         let mut undo = Undo::default();
-        let Some(moved) = self.take(step, &mut undo) else { return 0.0 };
+        let Some(done) = self.take(step, &mut undo) else { return 0.0 };
         let after = self.badness(&seeds);
         self.grid.mesh.take_back(&mut undo);
-        if let Some((v, place, xyz)) = moved {
+        if let Done::Moved(v, place, xyz) = done {
             self.grid.places[v as usize] = place;
             self.grid.xyz[v as usize] = xyz;
         }
         before - after
     }
 
-    /// Carry out a step; gives where a node was, if one moved. `None` where the step is refused.
-    #[expect(clippy::option_option, reason = "whether it was done, and whether a node moved")]
-    fn take(&mut self, step: Step, undo: &mut Undo) -> Option<Option<(u32, Place, DVec3)>> {
+    /// Carry out a step; gives what it did. `None` where it is refused.
+    fn take(&mut self, step: Step, undo: &mut Undo) -> Option<Done> {
         match step {
-            Step::Flip(a, b) => self.grid.mesh.try_flip(a, b, undo).ok().map(|_| None),
-            Step::Collapse(a, b) => self.grid.mesh.try_collapse(a, b, undo).ok().map(|()| None),
+            Step::Flip(a, b) => self.grid.mesh.try_flip(a, b, undo).ok().map(|_| Done::Rejoined),
+            Step::Collapse(a, b) => {
+                self.grid.mesh.try_collapse(a, b, undo).ok().map(|()| Done::Rejoined)
+            }
             Step::Move(v, way) => {
                 let i = v as usize;
-                let was = (v, self.grid.places[i], self.grid.xyz[i]);
-                let step = (self.middle(v) - was.2) * way;
+                let was = Done::Moved(v, self.grid.places[i], self.grid.xyz[i]);
+                let step = (self.middle(v) - self.grid.xyz[i]) * way;
                 let moved = self.grid.slide(self.surface, i, step);
-                (moved > 0.0).then_some(Some(was))
+                (moved > 0.0).then_some(was)
             }
         }
     }

@@ -88,6 +88,25 @@ impl NurbsCurve {
         self.closed
     }
 
+    /// The same curve with no more points than those that shape it over `range`, which must lie in its domain; None
+    /// where it does not, or where that is all of them.
+    pub(super) fn part(&self, range: [f64; 2]) -> Option<NurbsCurve> {
+        let [from, to] = self.domain();
+        if range[0] < from || range[1] > to || range[0] >= range[1] {
+            return None;
+        }
+        let p = self.degree;
+        let first = self.knots[p..=self.points.len()].partition_point(|&k| k <= range[0]) - 1;
+        let inside = &self.knots[p..=self.points.len()];
+        let last = inside.partition_point(|&k| k < range[1]) - 1 + p;
+        if last - first + 1 == self.points.len() {
+            return None;
+        }
+        let weights = self.weights.get(first..=last).unwrap_or_default().to_vec();
+        let knots = self.knots[first..=last + p + 1].to_vec();
+        NurbsCurve::new(p, knots, self.points[first..=last].to_vec(), weights).ok()
+    }
+
     /// Position at `t`.
     pub fn point(&self, t: f64) -> DVec3 {
         self.jet(t)[0]
@@ -163,6 +182,62 @@ impl NurbsSurface {
         let mut b = self.knots[k][self.degree[k]..=self.count[k]].to_vec();
         b.dedup();
         b
+    }
+
+    /// The curve on it where the parameter of direction `k` has this value; None where that is no curve.
+    pub(super) fn iso(&self, k: usize, value: f64) -> Option<NurbsCurve> {
+        let b = Basis::at(&self.knots[k], self.degree[k], self.count[k], self.closed[k], value);
+        let (mut points, mut weights) = (Vec::new(), Vec::new());
+        for j in 0..self.count[1 - k] {
+            let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
+            for (i, share) in b.value[..=self.degree[k]].iter().enumerate() {
+                let at = if k == 0 {
+                    (b.first + i) * self.count[1] + j
+                } else {
+                    j * self.count[1] + b.first + i
+                };
+                let share = share * self.weights.get(at).copied().unwrap_or(1.0);
+                sum += self.points[at] * share;
+                weight += share;
+            }
+            points.push(sum / weight);
+            weights.push(weight);
+        }
+        if self.weights.is_empty() {
+            weights.clear();
+        }
+        NurbsCurve::new(self.degree[1 - k], self.knots[1 - k].clone(), points, weights).ok()
+    }
+
+    /// The part of it between two values of u and two of v, or the ends of its domain: knots as frequent as the
+    /// degree, where it takes its points over as they are. None where they leave nothing.
+    pub(super) fn between(&self, sides: [[Option<f64>; 2]; 2]) -> Option<NurbsSurface> {
+        let mut spans = [[0; 2]; 2];
+        let mut knots = self.knots.clone();
+        for k in 0..2 {
+            let (all, p) = (&self.knots[k], self.degree[k]);
+            let after = |t: f64| all.partition_point(|&x| x <= t).checked_sub(p + 1);
+            let before = |t: f64| all.partition_point(|&x| x < t).checked_sub(1);
+            let [low, high] = sides[k];
+            let first = low.map_or(Some(0), after)?;
+            let last = high.map_or(Some(self.count[k] - 1), before)?;
+            let mut part = all.get(first..=last + p + 1)?.to_vec();
+            let end = part.len() - 1;
+            // The outermost knots shape nothing.
+            part[0] = low.unwrap_or(part[0]);
+            part[end] = high.unwrap_or(part[end]);
+            (spans[k], knots[k]) = ([first, last], part);
+        }
+        let [[i0, i1], [j0, j1]] = spans;
+        let rows = (i0..=i1).map(|i| i * self.count[1] + j0..=i * self.count[1] + j1);
+        let points = rows.clone().flat_map(|r| &self.points[r]).copied().collect();
+        let weights = if self.weights.is_empty() {
+            Vec::new()
+        } else {
+            rows.flat_map(|r| &self.weights[r]).copied().collect()
+        };
+        let count = spans.map(|[a, b]| (b + 1).saturating_sub(a));
+        NurbsSurface::new(self.degree, knots, count, points, weights).ok()
     }
 
     /// Position at `uv`.

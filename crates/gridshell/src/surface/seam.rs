@@ -41,41 +41,57 @@ pub(super) fn complete(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Br
     let curves: Vec<Curve> = brep.edges.iter().map(|e| e.curve.clone()).collect();
     let origin = brep.origin;
     let edges = Edges { curves: &curves, polylines: &polylines, points: &points, origin };
+    for i in closed {
+        job.check(PREPARING)?;
+        close(&mut brep, i, &edges, sampling, job)?;
+    }
+    Ok(brep)
+}
+
+/// Give face `i`, whose patch closes, the seams that its loops leave out. `edges` are those of `brep`; ones that were
+/// added since may be missing.
+///
+/// # Errors
+/// [`Error::Surface`] naming the face where its loops bound nothing.
+pub(super) fn close(
+    brep: &mut Brep,
+    i: usize,
+    edges: &Edges,
+    sampling: &Sampling,
+    job: &Job,
+) -> Result<()> {
     // What was broken off tells nothing of the face.
     let fault = |brep: &Brep, i: usize, what: &str| {
         job.check(PREPARING).err().unwrap_or_else(|| fault(brep, i, what))
     };
-    for i in closed {
-        job.check(PREPARING)?;
-        let shape = brep.faces[i].shape.clone();
-        let tracer = Tracer::new(&shape, &edges, sampling, job);
-        let traced = |reversed: bool, brep: &Brep| -> std::result::Result<Vec<Traced>, String> {
-            brep.faces[i].loops.iter().map(|l| tracer.trace(l, reversed)).collect()
-        };
-        let mut reversed = brep.faces[i].reversed;
-        let mut all = traced(reversed, &brep).map_err(|what| fault(&brep, i, &what))?;
-        if let Some(loops) = without_seams(&brep, i, &all) {
-            brep.faces[i].loops = loops;
-            all = traced(reversed, &brep).map_err(|what| fault(&brep, i, &what))?;
-            if only_holes(&shape, &all, tracer.poles(), 1.0) {
-                reversed = !reversed;
-                brep.faces[i].reversed = reversed;
-                all = traced(reversed, &brep).map_err(|what| fault(&brep, i, &what))?;
-            }
+    let shape = brep.faces[i].shape.clone();
+    let tracer = Tracer::new(&shape, edges, sampling, job);
+    let traced = |reversed: bool, brep: &Brep| -> std::result::Result<Vec<Traced>, String> {
+        brep.faces[i].loops.iter().map(|l| tracer.trace(l, reversed)).collect()
+    };
+    let mut reversed = brep.faces[i].reversed;
+    let mut all = traced(reversed, brep).map_err(|what| fault(brep, i, &what))?;
+    if let Some(loops) = without_seams(brep, i, &all) {
+        brep.faces[i].loops = loops;
+        all = traced(reversed, brep).map_err(|what| fault(brep, i, &what))?;
+        if only_holes(&shape, &all, tracer.poles(), 1.0) {
+            reversed = !reversed;
+            brep.faces[i].reversed = reversed;
+            all = traced(reversed, brep).map_err(|what| fault(brep, i, &what))?;
         }
-        if only_holes(&shape, &all, tracer.poles(), -1.0) {
-            let from = clear_of(&shape, &all).map_err(|what| fault(&brep, i, &what))?;
-            bound_from(&mut brep, i, from)?;
-            continue;
-        }
-        let Err(what) = cut(&mut brep, i, &all, tracer.poles()) else { continue };
-        // What bounds nothing to its left may do so to its right: the file has the face the wrong way round.
-        brep.faces[i].reversed = !reversed;
-        traced(!reversed, &brep)
-            .and_then(|all| cut(&mut brep, i, &all, tracer.poles()))
-            .map_err(|_| fault(&brep, i, &what))?;
     }
-    Ok(brep)
+    if only_holes(&shape, &all, tracer.poles(), -1.0) {
+        let from = clear_of(&shape, &all).map_err(|what| fault(brep, i, &what))?;
+        bound_from(brep, i, from)?;
+        return Ok(());
+    }
+    let Err(what) = cut(brep, i, &all, tracer.poles()) else { return Ok(()) };
+    // What bounds nothing to its left may do so to its right: the file has the face the wrong way round.
+    brep.faces[i].reversed = !reversed;
+    traced(!reversed, brep)
+        .and_then(|all| cut(brep, i, &all, tracer.poles()))
+        .map_err(|_| fault(brep, i, &what))?;
+    Ok(())
 }
 
 /// A loop with a seam goes once round its closed patch, and no farther than this.

@@ -84,6 +84,15 @@ impl Traced {
     }
 }
 
+/// Part of a loop in the patch's parameters, in the loop's direction: along an edge, or along a side that is a pole.
+pub(super) struct Run {
+    /// The edge; None along a pole.
+    pub edge: Option<u32>,
+    pub nodes: Vec<Node>,
+    /// The edge's parameters at the nodes.
+    pub t: Vec<f64>,
+}
+
 /// What loops of one face are traced against.
 pub(super) struct Tracer<'a> {
     shape: &'a Shape,
@@ -125,16 +134,55 @@ impl<'a> Tracer<'a> {
         Ok(trim)
     }
 
+    /// All loops edge by edge, each joined to the next, and holes brought into the largest loop.
+    pub fn runs(&self, face: &BrepFace) -> Result<Vec<Vec<Run>>, String> {
+        let mut all = Vec::with_capacity(face.loops.len());
+        for l in &face.loops {
+            all.push(self.loop_runs(l, face.reversed)?);
+        }
+        let flat = |runs: &Vec<Run>| -> Vec<Node> {
+            runs.iter().flat_map(|r| &r.nodes).copied().collect()
+        };
+        let mut loops: Vec<Vec<Node>> = all.iter().map(flat).collect();
+        self.gather(&mut loops);
+        for (runs, gathered) in all.iter_mut().zip(loops) {
+            let shift = gathered[0].uv - runs[0].nodes[0].uv;
+            runs.iter_mut().flat_map(|r| &mut r.nodes).for_each(|n| n.uv += shift);
+        }
+        Ok(all)
+    }
+
+    fn loop_runs(&self, coedges: &[Coedge], reversed: bool) -> Result<Vec<Run>, String> {
+        let mut runs: Vec<Run> = Vec::new();
+        for c in in_uv(coedges, reversed) {
+            let mut nodes = self.path(c)?.nodes;
+            let mut t = self.edges.polylines[c.edge as usize].t.clone();
+            if c.reversed {
+                t.reverse();
+            }
+            if let Some(&end) = runs.last().and_then(|r| r.nodes.last()) {
+                let shift = self.shift(&end, &nodes[0]);
+                for n in &mut nodes {
+                    n.uv += shift;
+                }
+                runs.extend(pole_run(end, nodes[0]));
+            }
+            runs.push(Run { edge: Some(c.edge), nodes, t });
+        }
+        let ends =
+            runs.first().zip(runs.last()).map(|(a, b)| (a.nodes[0], b.nodes[b.nodes.len() - 1]));
+        let (first, last) = ends.ok_or("a loop is empty")?;
+        let again = Node { uv: first.uv + self.shift(&last, &first), ..first };
+        if again.uv != first.uv {
+            return Err("a loop runs round the closed patch without a seam".into());
+        }
+        runs.extend(pole_run(last, again));
+        Ok(runs)
+    }
+
     /// One loop, the face to its left in (u, v).
     pub fn trace(&self, coedges: &[Coedge], reversed: bool) -> Result<Traced, String> {
-        // Seen against du x dv, the face lies to the right of its loops: run them backwards.
-        let mut order: Vec<Coedge> = coedges.to_vec();
-        if reversed {
-            order.reverse();
-            for c in &mut order {
-                c.reversed = !c.reversed;
-            }
-        }
+        let order = in_uv(coedges, reversed);
         let mut traced = Traced { nodes: Vec::new(), winding: DVec2::ZERO, sliver: 0.0 };
         for c in order {
             if self.job.is_over(PREPARING) {
@@ -350,6 +398,29 @@ impl<'a> Tracer<'a> {
             }
         }
     }
+}
+
+/// A loop as it runs in (u, v). Seen against du x dv, the face lies to the right of its loops: run them backwards.
+fn in_uv(coedges: &[Coedge], reversed: bool) -> Vec<Coedge> {
+    let mut order: Vec<Coedge> = coedges.to_vec();
+    if reversed {
+        order.reverse();
+        for c in &mut order {
+            c.reversed = !c.reversed;
+        }
+    }
+    order
+}
+
+/// The side of a pole between two runs that meet in it; None elsewhere.
+fn pole_run(end: Node, start: Node) -> Option<Run> {
+    let gap = (start.uv - end.uv).abs().max_element();
+    let pole = end.vertex == start.vertex && start.free.is_some();
+    (pole && gap > 1e-9 * (1.0 + start.uv.abs().max_element())).then(|| Run {
+        edge: None,
+        nodes: vec![end, start],
+        t: vec![0.0, 1.0],
+    })
 }
 
 /// Area of a polygon in (u, v), without its sign.

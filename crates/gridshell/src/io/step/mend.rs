@@ -1,5 +1,6 @@
 //! A STEP file's text put into words that the parser knows, one thing after the other.
 
+use super::operators::{self, Operators};
 use super::text::Text;
 use super::{axes, envelope, facets, numbers, sets, swept, trimmed, units};
 
@@ -10,8 +11,16 @@ type Step = fn(&Text) -> Option<Vec<u8>>;
 const STEPS: [Step; 5] =
     [numbers::mended, units::mended, axes::mended, facets::mended, sets::mended];
 
-/// The text, and what was done that the user should know.
-pub(super) fn mended(bytes: Vec<u8>) -> (Text, Vec<String>) {
+/// A text for the parser, and what it does not say.
+pub(super) struct Mended {
+    pub text: Text,
+    pub operators: Operators,
+    /// What was done that the user should know.
+    pub notes: Vec<String>,
+}
+
+/// The text in words that the parser knows.
+pub(super) fn mended(bytes: Vec<u8>) -> Mended {
     let (bytes, notes) = envelope::clean(bytes);
     let mut text = Text::of(bytes);
     for step in STEPS {
@@ -24,5 +33,10 @@ pub(super) fn mended(bytes: Vec<u8>) -> (Text, Vec<String>) {
     if let Some(changed) = swept::mended(&text) {
         text = Text::of(changed);
     }
-    (text, notes)
+    let mut operators = Operators::default();
+    if let Some((changed, found)) = operators::mended(&text) {
+        text = Text::of(changed);
+        operators = found;
+    }
+    Mended { text, operators, notes }
 }

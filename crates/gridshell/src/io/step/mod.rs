@@ -11,6 +11,8 @@ mod facets;
 mod mend;
 mod meshes;
 mod numbers;
+mod operators;
+mod owners;
 mod reading;
 mod sets;
 mod shape;
@@ -25,7 +27,7 @@ use super::soup::Soup;
 use super::{Opening, weld};
 use crate::error::{Error, Result};
 use crate::job::Job;
-use crate::surface::{Brep, Model, PolygonMesh, Source, Unit};
+use crate::surface::{Brep, Loss, Model, PolygonMesh, Source, Unit};
 use reading::Reading;
 use std::fs::File;
 use std::io::Read;
@@ -34,6 +36,8 @@ use step_io::StepModel;
 
 /// Larger files are refused, bytes.
 const MOST_BYTES: u64 = 512 << 20;
+/// What is a face.
+const FACES: [&[u8]; 3] = [b"ADVANCED_FACE", b"FACE_SURFACE", b"FACE"];
 /// Notes of one kind beyond this many are only counted.
 const MOST_NOTES: usize = 20;
 
@@ -72,13 +76,14 @@ fn fault(path: &Path, place: &str, what: &str) -> Error {
 fn parse(mut text: impl Read) -> std::result::Result<Found, (String, String)> {
     let mut bytes = Vec::new();
     text.read_to_end(&mut bytes).map_err(|e| ("file".to_owned(), e.to_string()))?;
-    let (text, notes) = mend::mended(bytes);
+    let mend::Mended { text, operators, notes } = mend::mended(bytes);
     let (model, report) =
         step_io::read(text.bytes.as_slice()).map_err(|e| told(&e, &text.bytes))?;
     let scene = model.scene();
     let unit = scene.units().length.map(|u| u.to_si).filter(|m| m.is_finite() && *m > 0.0);
-    let mut reading = Reading::new(&model, unit.unwrap_or(0.001));
+    let mut reading = Reading::new(&model, operators, unit.unwrap_or(0.001));
     reading.name_faces(&text, &report);
+    reading.find_owners(&text, &report);
     reading.brep.notes = notes;
     reading.brep.source = source(&model);
     let precision = scene.units().precision.filter(|p| p.is_finite() && *p > 0.0);
@@ -88,9 +93,17 @@ fn parse(mut text: impl Read) -> std::result::Result<Found, (String, String)> {
     }
     reading.everything(&scene)?;
     let mut brep = reading.brep;
+    let is_face = |id: u64| text.get(id).is_some_and(|r| FACES.contains(&text.keyword(r)));
+    let (faces, others): (Vec<_>, Vec<_>) = report.dropped.iter().partition(|(id, _)| is_face(*id));
+    brep.source.losses.extend(faces.into_iter().map(|(id, why)| Loss {
+        what: format!("face #{id}"),
+        why: why.to_string(),
+        faces: 1,
+        ..Loss::default()
+    }));
     note_some(
         &mut brep.notes,
-        report.dropped.iter().map(|(id, why)| format!("#{id} left out: {why}")),
+        others.into_iter().map(|(id, why)| format!("#{id} left out: {why}")),
     );
     note_some(&mut brep.notes, report.parse_warnings.iter().map(ToString::to_string));
     note_some(&mut brep.notes, scene.warnings().iter().map(ToString::to_string));
@@ -102,7 +115,8 @@ fn parse(mut text: impl Read) -> std::result::Result<Found, (String, String)> {
         let notes = brep.notes.into_iter().chain(soup.notes).collect();
         return Ok(Found::Triangles(Soup { notes, ..soup }, brep.source));
     }
-    let why = brep.notes.iter().take(3).cloned().collect::<Vec<_>>().join("; ");
+    let told = brep.source.losses.iter().map(ToString::to_string).chain(brep.notes);
+    let why = told.take(3).collect::<Vec<_>>().join("; ");
     let why = if why.is_empty() { why } else { format!(" ({why})") };
     let what = if model.header().schema.to_string().starts_with("IFC") || text.has(&["IFCPROJECT"])
     {

@@ -1,13 +1,15 @@
 //! A STEP file's products, faces, edges and vertices brought together, each placed copy by itself.
 
+use super::operators::Operators;
+use super::owners;
 use super::shape;
 use super::text::Text;
-use crate::surface::Curve;
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::{FARTHEST, NurbsCurve, reach};
+use crate::surface::{Curve, Loss};
 use glam::{DMat4, DVec3};
 use std::collections::{HashMap, HashSet};
-use step_io::scene::{Bound, Edge, Face, MappedInstance, ProductDef, Scene, Transform, Vertex};
+use step_io::scene::{Bound, Edge, Face, MappedInstance, ProductDef, Scene, Vertex};
 use step_io::{EntityKey, Orientation, Report, StepModel};
 
 /// More faces, counted with every placed copy, are refused.
@@ -21,6 +23,10 @@ const SAME_PLACE: f64 = 1e-6;
 /// Edges that follow each other in a loop may be this share of the loop's size apart.
 const LOOP_GAP: f64 = 1e-2;
 
+/// Placements are one whose axes differ by less than this share of the scale, and whose origins by so many metres.
+const SAME_TURN: f64 = 1e-9;
+const SAME_ORIGIN: f64 = 1e-6;
+
 /// Longer loops are not put in order.
 const MOST_STRUNG: usize = 10_000;
 
@@ -31,8 +37,12 @@ pub(super) type Fatal = (String, String);
 pub(super) struct Reading<'m> {
     pub brep: Brep,
     model: &'m StepModel,
-    /// Faces that some product placed.
-    seen: HashSet<EntityKey>,
+    /// Placements that mirror or scale.
+    operators: Operators,
+    /// Faces that some product placed, and where.
+    seen: HashMap<EntityKey, Vec<DMat4>>,
+    /// Mapped items of products.
+    mapped_of: HashMap<EntityKey, Vec<EntityKey>>,
     /// Edges and vertices of each placed copy; None for an edge that is only a point.
     edges: HashMap<(usize, EntityKey), Option<u32>>,
     vertices: HashMap<(usize, EntityKey), u32>,
@@ -45,11 +55,13 @@ pub(super) struct Reading<'m> {
 }
 
 impl<'m> Reading<'m> {
-    pub fn new(model: &'m StepModel, unit_in_metres: f64) -> Reading<'m> {
+    pub fn new(model: &'m StepModel, operators: Operators, unit_in_metres: f64) -> Reading<'m> {
         Reading {
             brep: Brep { unit_in_metres, ..Brep::default() },
             model,
-            seen: HashSet::new(),
+            operators,
+            seen: HashMap::new(),
+            mapped_of: HashMap::new(),
             edges: HashMap::new(),
             vertices: HashMap::new(),
             copies: 0,
@@ -60,18 +72,22 @@ impl<'m> Reading<'m> {
 
     /// Learn the identifiers of faces: the parser keeps faces of a kind in the order of the file.
     pub fn name_faces(&mut self, text: &Text, report: &Report) {
-        let kept = |keyword: &'static str| {
-            text.records.iter().filter(move |r| {
-                let gone = report.dropped.binary_search_by_key(&r.id, |(id, _)| *id).is_ok();
-                text.keyword(r) == keyword.as_bytes() && !gone
-            })
-        };
         let scene = self.model.scene();
         let faces: Vec<EntityKey> = scene.all_faces().map(|f| f.key()).collect();
-        let ids: Vec<u64> =
-            kept("ADVANCED_FACE").chain(kept("FACE_SURFACE")).map(|r| r.id).collect();
+        let ids = owners::kept(text, report, &["ADVANCED_FACE", "FACE_SURFACE"]);
         if ids.len() == faces.len() {
             self.names = faces.into_iter().zip(ids).collect();
+        }
+    }
+
+    /// Learn which mapped items each product has.
+    pub fn find_owners(&mut self, text: &Text, report: &Report) {
+        let scene = self.model.scene();
+        let owners = owners::of_mapped_items(text, report, &scene);
+        for item in scene.all_mapped_instances() {
+            if let Some(owner) = owners.get(&item.key()) {
+                self.mapped_of.entry(*owner).or_default().push(item.key());
+            }
         }
     }
 
@@ -104,18 +120,20 @@ impl<'m> Reading<'m> {
         for root in scene.root_definitions() {
             self.definition(&root, metres, 0)?;
         }
-        // Some files tell the same assembly both ways: what a product has placed is not placed again.
-        let told = self.seen.clone();
         let inner: HashSet<EntityKey> = scene
             .all_mapped_instances()
             .flat_map(|m| m.mapped_children().collect::<Vec<_>>())
             .map(|m| m.key())
             .collect();
-        for item in scene.all_mapped_instances().filter(|m| !inner.contains(&m.key())) {
+        let owned: HashSet<EntityKey> = self.mapped_of.values().flatten().copied().collect();
+        let loose = |m: &MappedInstance| !inner.contains(&m.key()) && !owned.contains(&m.key());
+        // What a product has placed is not placed again by what belongs to none.
+        let told: HashSet<EntityKey> = self.seen.keys().copied().collect();
+        for item in scene.all_mapped_instances().filter(loose) {
             self.mapped(&item, metres, 0, &told)?;
         }
         for face in scene.all_faces() {
-            if !self.seen.contains(&face.key()) {
+            if !self.seen.contains_key(&face.key()) {
                 self.face(&face, metres, 0)?;
             }
         }
@@ -158,10 +176,47 @@ impl<'m> Reading<'m> {
         }
         for o in part.occurrences() {
             let Some(child) = o.definition() else { continue };
-            let local = matrix(o.transform()).unwrap_or(DMat4::IDENTITY);
-            self.definition(&child, place * local, level + 1)?;
+            match self.operators.of_part(o.transform()).map_err(str::to_owned) {
+                Ok(local) => {
+                    let local = local.unwrap_or(DMat4::IDENTITY);
+                    self.definition(&child, place * local, level + 1)?;
+                }
+                Err(why) => self.lose_part(&child, &why),
+            }
+        }
+        let scene = self.model.scene();
+        let own = self.mapped_of.get(&part.key()).cloned().unwrap_or_default();
+        for item in scene.all_mapped_instances().filter(|m| own.contains(&m.key())) {
+            self.mapped(&item, place, level, &HashSet::new())?;
         }
         Ok(())
+    }
+
+    /// Tell that a part and all that is placed in it are left out.
+    fn lose_part(&mut self, part: &ProductDef, why: &str) {
+        let (mut faces, mut parts, mut met) = (Vec::new(), vec![*part], HashSet::new());
+        while let Some(part) = parts.pop() {
+            if !met.insert(part.key()) {
+                continue;
+            }
+            faces
+                .extend(part.solids().flat_map(|s| s.faces().map(|f| f.key()).collect::<Vec<_>>()));
+            let sheets = part.surface_models();
+            faces.extend(sheets.flat_map(|s| s.faces().map(|f| f.key()).collect::<Vec<_>>()));
+            parts.extend(part.occurrences().filter_map(|o| o.definition()));
+        }
+        let name = part.product().map_or("", |p| p.name());
+        self.lose(named("part", name), why.to_owned(), faces.into_iter());
+    }
+
+    /// Tell what is left out. Its faces count as seen.
+    fn lose(&mut self, what: String, why: String, faces: impl Iterator<Item = EntityKey>) {
+        let mut loss = Loss { what, why, whole: true, ..Loss::default() };
+        for face in faces {
+            self.seen.entry(face).or_default();
+            loss.faces += 1;
+        }
+        self.brep.source.losses.push(loss);
     }
 
     /// Everything that a mapped item places, but for faces that are `told` already.
@@ -179,9 +234,15 @@ impl<'m> Reading<'m> {
         if faces.is_empty() && children.is_empty() {
             return Ok(());
         }
-        let Some(local) = matrix(item.transform()) else {
-            self.note(format!("mapped item '{}' has no placement that can be used", item.name()));
-            return Ok(());
+        let local = self.operators.of_mapped(item.transform()).map_err(str::to_owned);
+        let local = match local.and_then(|l| l.ok_or("it has no placement that can be used".into()))
+        {
+            Ok(local) => local,
+            Err(why) => {
+                let name = named("mapped item", item.name());
+                self.lose(name, why, faces.iter().map(Face::key));
+                return Ok(());
+            }
         };
         let Some(copy) = self.enter(level)? else { return Ok(()) };
         for face in &faces {
@@ -195,7 +256,12 @@ impl<'m> Reading<'m> {
 
     /// One face; left out with a note where it cannot be used.
     fn face(&mut self, face: &Face, place: DMat4, copy: usize) -> Result<(), Fatal> {
-        self.seen.insert(face.key());
+        let places = self.seen.entry(face.key()).or_default();
+        // Some files tell the same assembly both ways, by occurrences and by mapped items.
+        if places.iter().any(|p| same_place(*p, place)) {
+            return Ok(());
+        }
+        places.push(place);
         if self.hidden.contains(&face.key()) {
             return Ok(());
         }
@@ -205,12 +271,10 @@ impl<'m> Reading<'m> {
         match self.try_face(face, place, copy) {
             Ok(face) => self.brep.faces.push(face),
             Err(why) => {
-                let name = match face.name() {
-                    "" => String::new(),
-                    name => format!(" '{name}'"),
-                };
-                let id = self.names.get(&face.key()).map_or("a face".into(), |id| format!("#{id}"));
-                self.note(format!("{id}{name} left out: {why}"));
+                let id = self.names.get(&face.key()).map_or(String::new(), |id| format!(" #{id}"));
+                let what = named(&format!("face{id}"), face.name());
+                let loss = Loss { what, why, faces: 1, ..Loss::default() };
+                self.brep.source.losses.push(loss);
             }
         }
         Ok(())
@@ -234,7 +298,15 @@ impl<'m> Reading<'m> {
         let shape = shape::of_face(self.model, face, place, &points)?;
         let reversed = face.orientation() == Orientation::Reversed;
         let label = self.names.get(&face.key()).map(|id| format!("#{id}")).unwrap_or_default();
-        Ok(BrepFace { shape, loops, reversed, label })
+        let mut face = BrepFace { shape, loops, reversed, label };
+        if place.determinant() < 0.0 {
+            // Seen in a mirror the outside is against du x dv, and the surface to the right of its loops.
+            face.reversed = !reversed;
+            for coedges in &mut face.loops {
+                flip(coedges);
+            }
+        }
+        Ok(face)
     }
 
     fn bound(&mut self, bound: &Bound, place: DMat4, copy: usize) -> Result<Vec<Coedge>, String> {
@@ -251,10 +323,7 @@ impl<'m> Reading<'m> {
             return Err("a boundary loop is missing".into());
         }
         if bound.orientation() == Orientation::Reversed {
-            coedges.reverse();
-            for c in &mut coedges {
-                c.reversed = !c.reversed;
-            }
+            flip(&mut coedges);
         }
         Ok(coedges)
     }
@@ -365,8 +434,25 @@ impl<'m> Reading<'m> {
     }
 }
 
-fn matrix(transform: Option<Transform>) -> Option<DMat4> {
-    transform?.matrix().map(|m| DMat4::from_cols_array_2d(&m).transpose())
+/// Run the other way.
+fn flip(coedges: &mut [Coedge]) {
+    coedges.reverse();
+    for c in coedges {
+        c.reversed = !c.reversed;
+    }
+}
+
+fn same_place(a: DMat4, b: DMat4) -> bool {
+    let axes = |m: DMat4| [m.x_axis, m.y_axis, m.z_axis];
+    let scale = b.x_axis.length();
+    let alike = axes(a).into_iter().zip(axes(b));
+    a.w_axis.abs_diff_eq(b.w_axis, SAME_ORIGIN)
+        && alike.into_iter().all(|(a, b)| a.abs_diff_eq(b, SAME_TURN * scale))
+}
+
+/// What it is, with its name.
+pub(super) fn named(what: &str, name: &str) -> String {
+    if name.is_empty() { what.to_owned() } else { format!("{what} '{name}'") }
 }
 
 /// Points of the file at their place in metres.

@@ -45,8 +45,8 @@ pub(super) fn of_face(
         (None, SurfaceKind::LinearExtrusion(s)) => extruded(model, s, place, points)?,
         _ => return Err(format!("an offset of {} has no exact form here", kind(&surface))),
     };
-    // Placements turn and move; only the unit scales.
-    let distance = distance * place.x_axis.length();
+    // Placements scale the same along all axes; one that mirrors turns du x dv round.
+    let distance = distance * place.x_axis.length() * place.determinant().signum();
     if !distance.is_finite() {
         return Err("its offset has no length".into());
     }

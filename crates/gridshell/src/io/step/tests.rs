@@ -411,3 +411,122 @@ fn vaults_and_domes_of_conics_are_as_large_as_their_faces() {
     let length = 3.0 * 5.0_f64.sqrt() + 1.5 * 2.0_f64.asinh();
     assert!((area(&text) / (4.0 * length) - 1.0).abs() < 1e-5, "{} {}", area(&text), 4.0 * length);
 }
+
+/// A product whose shape is what the representations hold, and the axes that operators need.
+const ROOF: &str = "#200=APPLICATION_CONTEXT('');#201=PRODUCT_CONTEXT('',#200,'mechanical');
+#202=PRODUCT_DEFINITION_CONTEXT('part definition',#200,'design');#203=PRODUCT('roof','roof','',(#201));
+#204=PRODUCT_DEFINITION_FORMATION('','',#203);#205=PRODUCT_DEFINITION('design','',#204,#202);
+#206=PRODUCT_DEFINITION_SHAPE('','',#205);
+#400=CARTESIAN_POINT('',(0.,0.,0.));#401=AXIS2_PLACEMENT_3D('',#400,$,$);
+#402=REPRESENTATION_MAP(#401,#105);#403=DIRECTION('',(1.,0.,0.));#404=DIRECTION('',(-1.,0.,0.));
+#405=DIRECTION('',(0.,1.,0.));#406=DIRECTION('',(0.,0.,1.));#407=CARTESIAN_POINT('',(10.,0.,0.));
+#408=CARTESIAN_POINT('',(20.,0.,0.));";
+
+fn has(brep: &Brep, x: f64, y: f64, z: f64) -> bool {
+    brep.vertices.iter().any(|v| v.distance(DVec3::new(x, y, z)) < 1e-9)
+}
+
+#[test]
+fn mapped_items_are_mirrored_and_scaled() {
+    // The plate of 4 x 2 at z = 1 mirrored at x = 5, doubled from x = 20, and both, one in the other.
+    let operators = "#410=CARTESIAN_TRANSFORMATION_OPERATOR_3D('',$,'',#404,#405,#407,1.,#406);
+#411=MAPPED_ITEM('mirrored',#402,#410);
+#412=(CARTESIAN_TRANSFORMATION_OPERATOR($,$,#408,2.)CARTESIAN_TRANSFORMATION_OPERATOR_3D($)
+FUNCTIONALLY_DEFINED_TRANSFORMATION('','')GEOMETRIC_REPRESENTATION_ITEM()REPRESENTATION_ITEM(''));
+#413=MAPPED_ITEM('doubled',#402,#412);";
+    for (placed, faces, places) in [
+        ("(#411)", 1, vec![[6.0, 2.0, 1.0], [10.0, 0.0, 1.0]]),
+        ("(#413)", 1, vec![[28.0, 4.0, 2.0], [20.0, 0.0, 2.0]]),
+        ("(#411,#413)", 2, vec![[6.0, 2.0, 1.0], [28.0, 4.0, 2.0]]),
+        ("(#104,#411)", 2, vec![[0.0, 2.0, 1.0], [6.0, 2.0, 1.0]]),
+    ] {
+        let text = plate_with(&format!(
+            "{ROOF}{operators}#420=SHAPE_REPRESENTATION('',{placed},#4);
+#421=SHAPE_DEFINITION_REPRESENTATION(#206,#420);"
+        ));
+        let brep = parse(text.as_bytes()).unwrap();
+        assert_eq!(brep.faces.len(), faces, "{placed}");
+        assert!(
+            places.iter().all(|&[x, y, z]| has(&brep, x, y, z)),
+            "{placed} {:?}",
+            brep.vertices
+        );
+        assert!(brep.source.losses.is_empty(), "{:?}", brep.source.losses);
+    }
+    let nested = plate_with(&format!(
+        "{ROOF}{operators}#420=SHAPE_REPRESENTATION('',(#104,#411),#4);
+#421=REPRESENTATION_MAP(#401,#420);#422=MAPPED_ITEM('',#421,#412);
+#423=SHAPE_REPRESENTATION('',(#422),#4);#424=SHAPE_DEFINITION_REPRESENTATION(#206,#423);"
+    ));
+    let brep = parse(nested.as_bytes()).unwrap();
+    assert_eq!(brep.faces.len(), 2);
+    assert!(has(&brep, 28.0, 4.0, 2.0) && has(&brep, 32.0, 4.0, 2.0), "{:?}", brep.vertices);
+    // Mirrored, a face keeps its outside: the two look the same way.
+    let up = |f: &crate::surface::brep::BrepFace| {
+        let normal = f.shape.jet(glam::DVec2::splat(0.5)).normal().z;
+        normal * if f.reversed { -1.0 } else { 1.0 }
+    };
+    assert!(up(&brep.faces[0]) * up(&brep.faces[1]) > 0.0);
+}
+
+/// An assembly of one part, placed by what `operator` is.
+fn assembly(operator: &str, order: &str) -> String {
+    plate_with(&format!(
+        "{ROOF}#210=PRODUCT('plate','plate','',(#201));#211=PRODUCT_DEFINITION_FORMATION('','',#210);
+#212=PRODUCT_DEFINITION('design','',#211,#202);#213=PRODUCT_DEFINITION_SHAPE('','',#212);
+#214=SHAPE_DEFINITION_REPRESENTATION(#213,#105);#215=SHAPE_REPRESENTATION('',(#401,#410),#4);
+#216=SHAPE_DEFINITION_REPRESENTATION(#206,#215);#410={operator};
+#411=(REPRESENTATION_RELATIONSHIP('','',{order})REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#410)
+SHAPE_REPRESENTATION_RELATIONSHIP());#412=CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#411,#413);
+#413=PRODUCT_DEFINITION_SHAPE('','',#414);
+#414=NEXT_ASSEMBLY_USAGE_OCCURRENCE('1','','',#205,#212,$);"
+    ))
+}
+
+#[test]
+fn parts_of_assemblies_are_mirrored_and_scaled() {
+    let mirror = "CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#404,#405,#407,1.,#406)";
+    let half = "CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#403,#405,#408,0.5,#406)";
+    for (operator, order, corner) in [
+        (mirror, "#105,#215", [6.0, 2.0, 1.0]),
+        (half, "#105,#215", [22.0, 1.0, 0.5]),
+        // The other way round the operator leads from the assembly to the part.
+        (half, "#215,#105", [-32.0, 4.0, 2.0]),
+    ] {
+        let brep = parse(assembly(operator, order).as_bytes()).unwrap();
+        assert_eq!(brep.faces.len(), 1);
+        let [x, y, z] = corner;
+        assert!(has(&brep, x, y, z), "{operator} {order} {:?}", brep.vertices);
+    }
+    // OpenCascade writes the scale of the way back, below 0 where it mirrors: p -> (T p + A) / S.
+    let by_occ = |operator: &str| {
+        let text = assembly(operator, "#105,#215");
+        parse(text.replace("FILE_NAME('',''", "FILE_NAME('Open CASCADE Shape Model',''").as_bytes())
+    };
+    let brep = by_occ(half).unwrap();
+    assert!(has(&brep, 48.0, 4.0, 2.0), "{:?}", brep.vertices);
+    let back = "CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#403,$,#407,-1.,#406)";
+    let brep = by_occ(back).unwrap();
+    assert!(has(&brep, -14.0, -2.0, -1.0), "{:?}", brep.vertices);
+}
+
+#[test]
+fn placements_that_distort_are_refused_by_name() {
+    let uneven =
+        "CARTESIAN_TRANSFORMATION_OPERATOR_3D_NON_UNIFORM('','','',#403,#405,#407,1.,#406)";
+    let nothing = "CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#403,#405,#407,0.,#406)";
+    let one = "CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#406,#405,#407,1.,#406)";
+    for (operator, why) in [(uneven, "differently"), (nothing, "nothing"), (one, "are one")] {
+        let (_, what) = parse(assembly(operator, "#105,#215").as_bytes()).unwrap_err();
+        assert!(what.contains("part 'plate' (1 face)") && what.contains(why), "{what}");
+        let mapped = plate_with(&format!(
+            "{ROOF}#410={operator};#411=MAPPED_ITEM('wing',#402,#410);
+#420=SHAPE_REPRESENTATION('',(#104,#411),#4);#421=SHAPE_DEFINITION_REPRESENTATION(#206,#420);"
+        ));
+        let brep = parse(mapped.as_bytes()).unwrap();
+        assert_eq!((brep.faces.len(), brep.source.losses.len()), (1, 1));
+        let lost = &brep.source.losses[0];
+        assert!(lost.what == "mapped item 'wing'" && lost.whole && lost.faces == 1, "{lost}");
+        assert!(lost.why.contains(why), "{lost}");
+    }
+}
