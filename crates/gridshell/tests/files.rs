@@ -190,8 +190,12 @@ fn a_unit_that_was_asked_for_goes_before_the_files() {
     }
     for file in files {
         let load = |unit| {
-            gridshell::io::load(&folder.join(file), &Opening { unit, ..Opening::default() }, &Job::default())
-                .unwrap()
+            gridshell::io::load(
+                &folder.join(file),
+                &Opening { unit, ..Opening::default() },
+                &Job::default(),
+            )
+            .unwrap()
         };
         let area = |model: &Model| sampled(model, EDGE * model.size()).unwrap().area;
         let unit_of = |model: &Model| match model {

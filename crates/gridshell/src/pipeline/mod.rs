@@ -52,7 +52,8 @@ const SENSIBLE_NODES: usize = 1000;
 /// [`Error::Invalid`] where no valid grid of this edge length exists or was found.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
-    let run = parts::generate(&*smoothed(model, recipe, job)?, &local(recipe, model.origin()), job)?;
+    let run =
+        parts::generate(&*smoothed(model, recipe, job)?, &local(recipe, model.origin()), job)?;
     Ok(Run { recipe: recipe.clone(), ..run })
 }
 

@@ -68,7 +68,8 @@ pub fn group(
             let facets = mesh.surface(&Sampling { max_edge, chord_error, corner_angle }, job)?;
             let crease_angle = recipe.feature_angle_deg.to_radians();
             let most = BOW_LENGTH * length;
-            let near = Symmetries::of_facets(&facets, tolerance, [crease_angle, corner_angle], most, job);
+            let near =
+                Symmetries::of_facets(&facets, tolerance, [crease_angle, corner_angle], most, job);
             larger(exact, find(&near, recipe.symmetry))
         }
         _ => exact,

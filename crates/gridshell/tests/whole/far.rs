@@ -121,8 +121,9 @@ fn a_mesh_far_from_the_origin_gives_the_grid_that_it_gives_near() {
         let model = mesh("far.obj", place, 1.0);
         let far = lay(&model, &recipe);
         assert_same(&near, &far, place);
-        let carrier =
-            |run: &Run, model: &Model| pipeline::surface(model, &run.recipe, &Job::default()).unwrap().0.carrier;
+        let carrier = |run: &Run, model: &Model| {
+            pipeline::surface(model, &run.recipe, &Job::default()).unwrap().0.carrier
+        };
         let near = carrier(&near, &mesh("again.obj", DVec3::ZERO, 1.0));
         assert_eq!(near.triangles, carrier(&far, &model).triangles, "the same work");
     }
@@ -217,7 +218,8 @@ fn every_format_has_the_files_coordinates_and_ours_open_again() {
         let nodes = world(&run);
         let held = Supports::Points(vec![nodes[0], nodes[1]]).nodes(&run.grid, &surface).unwrap();
         assert_eq!(held, [0, 1]);
-        let reference = io::reference(&path.to_string_lossy(), &Opening::default(), &Job::default()).unwrap();
+        let reference =
+            io::reference(&path.to_string_lossy(), &Opening::default(), &Job::default()).unwrap();
         let document = Document::of_run(&run, reference, held);
         assert_eq!(document.anchors.len(), 2);
         let structure = Structure::default();
@@ -239,13 +241,15 @@ fn every_format_has_the_files_coordinates_and_ours_open_again() {
                 assert_eq!(opened.grid.xyz, run.grid.xyz, "on its surface again, bit for bit");
                 assert!(opened.summary.is_some() && opened.notes.is_empty(), "{:?}", opened.notes);
             }
-            let on = reopen::open(&path, Some(&path_of(k)), &Opening::default(), &Job::default()).unwrap();
+            let on = reopen::open(&path, Some(&path_of(k)), &Opening::default(), &Job::default())
+                .unwrap();
             let schedule = Schedule::new(&on.grid, &on.surface, &Tolerances::default());
             assert!(schedule.nodes.off_surface.iter().all(|&d| d < 1e-4), "{end}");
             std::fs::remove_file(&path).unwrap();
         }
         for end in ["dxf", "csv", "compas.json", "vtu", "saf.xlsx", "ifc", "tcl"] {
-            let written = io::write(&scratch(&format!("handed{k}.{end}")), &file, &Job::default()).unwrap();
+            let written =
+                io::write(&scratch(&format!("handed{k}.{end}")), &file, &Job::default()).unwrap();
             let text = std::fs::read(&written[0]).unwrap();
             let text = String::from_utf8_lossy(&text);
             let first = nodes[0].y.to_string();

@@ -55,7 +55,8 @@ pub fn split_folds(brep: &mut Brep, job: &Job) -> Result<()> {
     let ready = bounded(&mut parted, &folded, job);
     let (points, polylines) = sampled(&parted, &folded);
     let curves: Vec<Curve> = parted.edges.iter().map(|e| e.curve.clone()).collect();
-    let edges = Edges { curves: &curves, polylines: &polylines, points: &points, origin: brep.origin };
+    let edges =
+        Edges { curves: &curves, polylines: &polylines, points: &points, origin: brep.origin };
     let mut draft = Draft::new(&parted, snap);
     let mut parts = Vec::new();
     for (i, lines) in folded.iter().filter(|(i, _)| ready.contains(i)) {
@@ -94,7 +95,8 @@ fn bounded(brep: &mut Brep, folded: &[(usize, Lines)], job: &Job) -> Vec<usize> 
     }
     let (points, polylines) = sampled(brep, folded);
     let curves: Vec<Curve> = brep.edges.iter().map(|e| e.curve.clone()).collect();
-    let edges = Edges { curves: &curves, polylines: &polylines, points: &points, origin: brep.origin };
+    let edges =
+        Edges { curves: &curves, polylines: &polylines, points: &points, origin: brep.origin };
     for i in round {
         let before = brep.faces[i].clone();
         if seam::close(brep, i, &edges, &sampling_of(&before.shape), job).is_err() {
