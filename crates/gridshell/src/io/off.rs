@@ -68,7 +68,6 @@ enum Rest {
 
 /// The words of the file, each with its line.
 #[derive(Clone)]
-#[expect(clippy::struct_field_names, reason = "the words of a line are its words")]
 struct Words<'a> {
     path: &'a Path,
     /// The line that is being read, its words, and the lines below it.

@@ -44,7 +44,6 @@ struct Placed {
 
 /// A place of a member of a block.
 #[derive(Clone)]
-#[expect(clippy::struct_field_names, reason = "where its member is placed")]
 pub(super) struct Place {
     member: String,
     at: DAffine3,
