@@ -368,7 +368,7 @@ pub mod tests {
     /// The grid of a square, as if from a file.
     pub fn square(number: u32) -> Laid {
         let (grid, surface) = crate::measures::tests::square();
-        let document = Document::of_grid("square", &grid);
+        let document = Document::of_grid("square", &grid, surface.origin);
         let opened = Arc::new(Opened::alone(&document, &Job::default()).unwrap());
         let read = reopen::Opened {
             document,
@@ -378,6 +378,7 @@ pub mod tests {
             edge_length: 1.0,
             recipe: Recipe::default(),
             notes: Vec::new(),
+            losses: Vec::new(),
         };
         Laid::of_file(number, read, opened)
     }

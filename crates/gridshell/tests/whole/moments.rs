@@ -175,7 +175,7 @@ fn measuring_and_writing_stop_anywhere_and_leave_no_part_of_a_file() {
         measure_within(&run.grid, &surface, length, &recipe.measure, job)?;
         Schedule::within(&run.grid, &surface, &Tolerances::default(), job)
     });
-    let document = Document::of_grid("saddle", &run.grid);
+    let document = Document::of_grid("saddle", &run.grid, run.origin);
     let structure = Structure::default();
     let file = GridFile { document: &document, schedule: &run.schedule, structure: &structure };
     for end in [
