@@ -54,18 +54,12 @@ const SENSIBLE_NODES: usize = 1000;
 /// [`Error::Invalid`] where no valid grid of this edge length exists or was found.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
     recipe.validate()?;
-<<<<<<< HEAD
     check_whole(model, recipe, job)?;
     let run =
         parts::generate(&*smoothed(model, recipe, job)?, &local(recipe, model.origin()), job)?;
     // As it was given, but for what turned out on the way.
     let skip_parts = run.recipe.skip_parts.clone();
     Ok(Run { recipe: Recipe { skip_parts, ..recipe.clone() }, ..run })
-=======
-    let run =
-        parts::generate(&*smoothed(model, recipe, job)?, &local(recipe, model.origin()), job)?;
-    Ok(Run { recipe: recipe.clone(), ..run })
->>>>>>> origin
 }
 
 /// Lay a grid on a model of one part; the surface that it was laid on is given too.

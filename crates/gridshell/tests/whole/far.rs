@@ -248,7 +248,6 @@ fn every_format_has_the_files_coordinates_and_ours_open_again() {
                 assert_eq!(opened.grid.xyz, run.grid.xyz, "on its surface again, bit for bit");
                 assert!(opened.summary.is_some() && opened.notes.is_empty(), "{:?}", opened.notes);
             }
-<<<<<<< HEAD
             let on = reopen::open(
                 &path,
                 Some(&path_of(k)),
@@ -257,10 +256,6 @@ fn every_format_has_the_files_coordinates_and_ours_open_again() {
                 &Job::default(),
             )
             .unwrap();
-=======
-            let on = reopen::open(&path, Some(&path_of(k)), &Opening::default(), &Job::default())
-                .unwrap();
->>>>>>> origin
             let schedule = Schedule::new(&on.grid, &on.surface, &Tolerances::default());
             assert!(schedule.nodes.off_surface.iter().all(|&d| d < 1e-4), "{end}");
             std::fs::remove_file(&path).unwrap();
