@@ -289,7 +289,7 @@ fn a_memory_limit_is_told_and_leaves_with_5() {
     fs::write(folder.path().join("sheet.obj"), sheet(30)).expect("written");
     for args in [
         "generate hexagon -n 400 --memory-limit 1M",
-        "generate hexagon -n 3000000 --memory-limit 500M",
+        "generate hexagon -n 1900000 --memory-limit 500M",
         "inspect sheet.obj --memory-limit 1M",
         "measure sheet.obj --memory-limit 1000k",
     ] {

@@ -113,7 +113,7 @@ fn folder() -> (TempDir, [(&'static str, &'static str); 3]) {
     (
         folder,
         [
-            ("curved.obj", "curved surface"),
+            ("curved.obj", "1 curved surface"),
             ("two.json", "mesh porch"),
             ("broken.step", "face #406"),
         ],

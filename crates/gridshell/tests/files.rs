@@ -286,7 +286,7 @@ fn what_is_left_out_of_a_rhino_file_is_told_by_name_and_layer() {
         }
     };
     let all = Choice::default;
-    let mesh = "left out mesh `mesh` on layer `meshes` (2 faces, 4.449 m2)";
+    let mesh = "left out mesh `mesh` on layer `meshes` (2 faces, about 4.45 m2)";
     let one = |told: Vec<String>| {
         assert_eq!(told.len(), 1, "{told:?}");
         told.concat()

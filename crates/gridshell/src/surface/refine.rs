@@ -110,7 +110,7 @@ impl<'a> Web<'a> {
     pub fn refine(&mut self, sampling: &Sampling, most: usize, job: &Job) {
         for _ in 0..MAX_ROUNDS {
             self.flip_all(job);
-            if !self.split_long(sampling, job) || self.nodes.len() > most {
+            if !self.split_long(sampling, most, job) || self.nodes.len() > most {
                 break;
             }
         }
@@ -257,8 +257,9 @@ impl<'a> Web<'a> {
         uv
     }
 
-    /// Split inner edges that break the sampling, longest first, none next to another. Whether any was.
-    fn split_long(&mut self, sampling: &Sampling, job: &Job) -> bool {
+    /// Split inner edges that break the sampling, longest first, none next to another, until there are more than `most`
+    /// nodes. Whether any was.
+    fn split_long(&mut self, sampling: &Sampling, most: usize, job: &Job) -> bool {
         let mut long: Vec<(f64, u32, u8)> = Vec::new();
         for t in 0..self.triangles.len() as u32 {
             if job.is_over(PREPARING) {
@@ -282,6 +283,9 @@ impl<'a> Web<'a> {
         long.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
         let mut touched = vec![false; self.triangles.len()];
         for &(_, t, k) in &long {
+            if self.nodes.len() > most {
+                break;
+            }
             let o = self.neighbors[t as usize][k as usize];
             // Triangles made in this round lie beyond the list.
             if touched[t as usize] || touched.get(o as usize).is_none_or(|&o| o) {

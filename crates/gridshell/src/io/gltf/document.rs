@@ -6,6 +6,7 @@ use serde::Deserialize;
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 pub(super) struct Document {
+    pub asset: Asset,
     pub scene: Option<usize>,
     pub scenes: Vec<Scene>,
     pub nodes: Vec<Node>,
@@ -14,6 +15,14 @@ pub(super) struct Document {
     pub buffer_views: Vec<BufferView>,
     pub buffers: Vec<Buffer>,
     pub extensions_required: Vec<String>,
+}
+
+/// What the file says of itself.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Asset {
+    /// The program that wrote it.
+    pub generator: String,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -248,7 +248,7 @@ fn curves_that_contain_themselves_end_in_a_note_with_the_entity() {
     let brep = sketch.read();
     assert_eq!(brep.faces.len(), 1);
     let lost = &brep.source.losses;
-    assert!(lost.iter().any(|l| l.what.contains("D3") && l.why.contains("nested")), "{lost:?}");
+    assert!(lost.iter().any(|l| l.why.contains("D3") && l.why.contains("nested")), "{lost:?}");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use std::fmt::Write;
 /// Codes of chunks (`opennurbs_3dm.h`).
 const OBJECT_TABLE: u32 = 0x1000_0013;
 const BLOCK_TABLE: u32 = 0x1000_0021;
-const UNKNOWN: u8 = 0x7f;
+const END_OF_TABLE: u32 = 0xffff_ffff;
 const OBJECT_RECORD: u32 = 0x2000_8070;
 const OBJECT_TYPE: u32 = 0x8200_0071;
 const OBJECT_ATTRIBUTES: u32 = 0x0200_8072;
@@ -82,21 +82,33 @@ impl Kind {
     }
 }
 
-/// The file without its definitions of blocks, so that their members are objects like others.
+/// The file with an empty table of definitions of blocks, so that their members are objects like others.
 pub(super) fn without_blocks(mut bytes: Vec<u8>) -> Vec<u8> {
     let Some(wide) = wide(&bytes) else { return bytes };
-    let mut chunks = Chunks { bytes: &bytes[HEADER..], wide };
-    let found = std::iter::from_fn(|| {
-        let left = chunks.bytes.len();
-        chunks.next().map(|chunk| (left, chunk.code))
-    });
-    let tables: Vec<usize> =
-        found.filter(|f| f.1 & !CHECKED == BLOCK_TABLE).map(|f| bytes.len() - f.0).collect();
-    for at in tables {
-        // A code that nobody knows.
-        bytes[at] = UNKNOWN;
+    let head = if wide { 12 } else { 8 };
+    let Some((at, length)) = table_of_blocks(&bytes, wide) else { return bytes };
+    let number = |n: usize| (n as u64).to_le_bytes()[..head - 4].to_vec();
+    let end_of_table = [END_OF_TABLE.to_le_bytes().to_vec(), number(0)].concat();
+    let empty = [BLOCK_TABLE.to_le_bytes().to_vec(), number(head), end_of_table].concat();
+    bytes.splice(at..at + head + length, empty);
+    // The last chunk tells how long the file is.
+    let size = number(bytes.len());
+    if let Some(last) = bytes.len().checked_sub(size.len()).filter(|&k| k > HEADER) {
+        bytes[last..].copy_from_slice(&size);
     }
     bytes
+}
+
+/// Where the table of definitions of blocks begins, and the length of its contents.
+fn table_of_blocks(bytes: &[u8], wide: bool) -> Option<(usize, usize)> {
+    let mut chunks = Chunks { bytes: &bytes[HEADER..], wide };
+    loop {
+        let at = bytes.len() - chunks.bytes.len();
+        let chunk = chunks.next()?;
+        if chunk.code & !CHECKED == BLOCK_TABLE {
+            return Some((at, chunk.body.len()));
+        }
+    }
 }
 
 /// All objects, in the order of the file; empty where there is no table.

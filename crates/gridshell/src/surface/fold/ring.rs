@@ -1,8 +1,12 @@
 //! Loops of a face as rings of pieces in (u, v), the face to their left.
 
 use crate::surface::brep::BrepFace;
+use crate::surface::shape::Shape;
 use crate::surface::trim::{Run, Tracer};
 use glam::DVec2;
+
+/// A place farther than this from its foot, over the distance between the places beside it, is looked for again.
+const SNAGGED: f64 = 1e-3;
 
 /// A place on a piece: where on its edge, and its parameters.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +33,7 @@ pub(super) type Ring = Vec<Piece>;
 pub(super) fn of_face(tracer: &Tracer, face: &BrepFace) -> Result<Vec<Ring>, String> {
     let mut rings: Vec<Ring> = Vec::new();
     for runs in tracer.runs(face)? {
-        let mut ring: Ring = runs.iter().map(piece).collect();
+        let mut ring: Ring = runs.iter().map(|run| piece(run, &face.shape)).collect();
         // Neighbours agree on where they meet to the last digit.
         for i in 0..ring.len() {
             let end = ring[i].path[ring[i].path.len() - 1].uv;
@@ -48,10 +52,32 @@ pub(super) fn of_face(tracer: &Tracer, face: &BrepFace) -> Result<Vec<Ring>, Str
     Ok(rings)
 }
 
-fn piece(run: &Run) -> Piece {
+fn piece(run: &Run, shape: &Shape) -> Piece {
     let (first, last) = (run.nodes[0], run.nodes[run.nodes.len() - 1]);
-    let path = run.nodes.iter().zip(&run.t).map(|(n, &t)| Spot { t, uv: n.uv }).collect();
+    let feet = feet(run, shape);
+    let path = feet.into_iter().zip(&run.t).map(|(uv, &t)| Spot { t, uv }).collect();
     Piece { edge: run.edge, ends: [first.vertex, last.vertex], path }
+}
+
+/// The parameters of a run's places. A foot that was looked for across a fold may have ended in it: then the places
+/// before and behind are nearer starts.
+fn feet(run: &Run, shape: &Shape) -> Vec<DVec2> {
+    let mut feet: Vec<DVec2> = run.nodes.iter().map(|n| n.uv).collect();
+    for i in 1..feet.len().saturating_sub(1) {
+        let target = run.nodes[i].xyz;
+        let off = |uv: DVec2| shape.point(uv).distance(target);
+        let step = run.nodes[i - 1].xyz.distance(run.nodes[i + 1].xyz);
+        if off(feet[i]) <= SNAGGED * step {
+            continue;
+        }
+        let again = [i - 1, i + 1].map(|k| shape.project(feet[k], target).0);
+        for uv in again {
+            if off(uv) < off(feet[i]) {
+                feet[i] = uv;
+            }
+        }
+    }
+    feet
 }
 
 /// Run the other way.
