@@ -6,7 +6,7 @@
 //!   a `#` for a comment.
 
 use super::scan::{self, Line};
-use super::{extension, file, text};
+use super::{READING, extension, file, text};
 use crate::error::Result;
 use crate::job::Job;
 use glam::DVec3;
@@ -24,6 +24,7 @@ pub fn read_guides(path: &Path, job: &Job) -> Result<Vec<Vec<DVec3>>> {
     let text = text::decode(&bytes);
     let guides =
         if extension(path) == "obj" { obj(path, &text, job)?.1 } else { plain(path, &text, job)? };
+    job.check(READING)?;
     if guides.is_empty() {
         return Err(scan::error(path, "whole file", "there is no polyline in it"));
     }
@@ -42,6 +43,7 @@ pub fn read_anchors(path: &Path, job: &Job) -> Result<Vec<DVec3>> {
     } else {
         points(path, &text, job)?.into_iter().map(|p| p.1).collect()
     };
+    job.check(READING)?;
     if anchors.is_empty() {
         return Err(scan::error(path, "whole file", "there is no point in it"));
     }
@@ -77,6 +79,8 @@ fn obj(path: &Path, text: &str, job: &Job) -> Result<(Vec<DVec3>, Vec<Vec<DVec3>
 /// Polylines of a plain text: runs of points on lines that follow one another.
 fn plain(path: &Path, text: &str, job: &Job) -> Result<Vec<Vec<DVec3>>> {
     let points = points(path, text, job)?;
+    // The last run of a file that was not read to its end may be short.
+    job.check(READING)?;
     let mut guides = Vec::new();
     for run in points.chunk_by(|a, b| b.0.number_in_file() == a.0.number_in_file() + 1) {
         if run.len() < 2 {

@@ -70,10 +70,18 @@ fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
     let (surface, mut fixed) = wishes::surface(recipe, length, make, job)?;
     let size = Scale { length, nodes };
     if let Some(found) = symmetry::group(&surface, model, recipe, length, job)? {
-        let run = symmetry::generate(model, &surface, &found, recipe, &size, fixed, job)?;
-        return Ok((run, surface));
-    }
-    if recipe.symmetry != Symmetry::None {
+        let told = fixed.clone();
+        match symmetry::generate(model, &surface, &found, recipe, &size, told, job) {
+            // Nobody asked for this very symmetry.
+            Err(why @ (Error::NoGrid { .. } | Error::Invalid { .. }))
+                if recipe.symmetry == Symmetry::Auto =>
+            {
+                fixed
+                    .push(format!("the grid has no symmetry, as one that has is not valid: {why}"));
+            }
+            run => return Ok((run?, surface)),
+        }
+    } else if recipe.symmetry != Symmetry::None {
         fixed.push("no symmetry was found: the grid has none".into());
     }
     let run = lay(model, &surface, recipe, &size, fixed, job)?;

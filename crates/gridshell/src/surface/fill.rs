@@ -56,6 +56,7 @@ pub(super) fn inside(
     let mut rows = Rows {
         shape,
         width: hi.x - lo.x,
+        close: LEAST_STEP * (hi.y - lo.y),
         columns: vec![Column::default(); sizes.count[0]],
         taken: Taken::new(sampling.max_edge),
         nodes: Vec::new(),
@@ -92,6 +93,8 @@ struct Rows<'a> {
     sizes: &'a Sizes,
     /// Extent of the face in u.
     width: f64,
+    /// Rows are not nearer to each other in v: what is due within that is due now, as rounding would decide else.
+    close: f64,
     columns: Vec<Column>,
     taken: Taken,
     nodes: Vec<Node>,
@@ -143,7 +146,7 @@ impl Rows<'_> {
             }
             let (column, end) = self.sizes.column(u);
             let here = &mut self.columns[column];
-            if here.due > v {
+            if here.due > v + self.close {
                 here.step = here.step.min(here.due - v);
                 u = end.max(u + LEAST_ADVANCE * self.width);
                 continue;
@@ -173,9 +176,9 @@ impl Rows<'_> {
     fn step(&mut self, v: f64) -> f64 {
         let step = self.columns.iter().map(|c| c.step).fold(f64::INFINITY, f64::min);
         for c in &mut self.columns {
-            if c.due <= v {
+            if c.due <= v + self.close {
                 let waits = c.step.is_finite() && c.step >= SPARSE * step;
-                c.due = if waits { v + c.step * (1.0 - ROUNDING) } else { f64::NEG_INFINITY };
+                c.due = if waits { v + c.step } else { f64::NEG_INFINITY };
             }
             c.step = f64::INFINITY;
         }

@@ -215,7 +215,8 @@ fn polls_grow_with_the_work() {
     ];
     for (name, phases) in cases {
         let model = model(name);
-        let length = 0.1 * model.size();
+        // Finer than what is looked at on any face, however coarse its carrier.
+        let length = 0.04 * model.size();
         let counted = |length: f64| {
             polls(|job| {
                 let sampling =
