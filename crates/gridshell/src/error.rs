@@ -66,7 +66,9 @@ pub enum Error {
 /// What a stop is told as: once a grid is there, it is only what was asked of it that is not done.
 fn stopped(phase: &str) -> String {
     match phase {
-        "measuring" | "drawing" | "writing" => format!("stopped {phase}"),
+        "measuring" | "drawing" | "writing" | "searching for a valid grid" => {
+            format!("stopped {phase}")
+        }
         _ => format!("stopped {phase}, before there was a grid"),
     }
 }

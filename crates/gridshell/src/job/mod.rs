@@ -175,7 +175,7 @@ impl Job {
     }
 
     /// Why the job is over.
-    fn reason(&self, phase: &'static str) -> Error {
+    pub(crate) fn reason(&self, phase: &'static str) -> Error {
         match self.stop.short_of_memory() {
             Some(limit) => Error::Memory(format!(
                 "stopped {phase}: it took more than the memory limit of {}; ask for longer members or a simpler \

@@ -211,7 +211,7 @@ fn finish(
     grid: Grid,
     job: &Job,
 ) -> Result<Run> {
-    verdict::check(&validity, recipe, surface.origin, length)?;
+    verdict::check(&validity, recipe, surface.origin, length, job)?;
     let mut warnings = warnings;
     warnings.extend(validity.warnings());
     warnings.extend(verdict::node_count(recipe, quality.nodes));

@@ -313,7 +313,7 @@ fn join(
     let grid = side_by_side(&grids, offsets)?;
     let quality = measure(&grid, surface, length, &recipe.measure);
     let validity = Validity::of(&grid, surface, length, &quality);
-    verdict::check(&validity, recipe, surface.origin, length)?;
+    verdict::check(&validity, recipe, surface.origin, length, job)?;
     let stages =
         (0..runs[0].stages.len()).map(|s| stage(s, numbers, &runs, surface, offsets, length));
     let stages = stages.collect::<Result<Vec<_>>>()?;

@@ -193,7 +193,7 @@ pub fn generate(
         }
     }
     let (grid, quality, validity) = chosen;
-    verdict::check(&validity, recipe, surface.origin, length)?;
+    verdict::check(&validity, recipe, surface.origin, length, job)?;
     if let Some(last) = run.stages.last_mut() {
         last.quality = Some(quality.clone());
         last.grid = Some(grid.clone());

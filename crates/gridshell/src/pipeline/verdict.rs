@@ -18,6 +18,8 @@ const MOST_REPAIRED: usize = 4;
 const CAUSE: f64 = 2.0;
 /// A number of nodes that is off the one asked for by more than this share, and by more than [`FEW`], is told.
 const KEPT: f64 = 0.15;
+/// What a stop is told as that leaves no valid grid.
+const SEARCHING: &str = "searching for a valid grid";
 /// See [`KEPT`]: small grids have little choice.
 const FEW: usize = 5;
 
@@ -77,10 +79,21 @@ pub fn soundest(
 /// origin.
 ///
 /// # Errors
-/// [`Error::Invalid`] with all places and what to do.
-pub fn check(validity: &Validity, recipe: &Recipe, origin: Origin, length: f64) -> Result<()> {
+/// [`Error::Invalid`] with all places and what to do; [`Error::Stopped`] or [`Error::Memory`] where the job was stopped
+/// before the grid was done.
+pub fn check(
+    validity: &Validity,
+    recipe: &Recipe,
+    origin: Origin,
+    length: f64,
+    job: &Job,
+) -> Result<()> {
     if validity.is_valid() || recipe.keep_invalid {
         return Ok(());
+    }
+    // With more time it may have become one.
+    if job.stopped() {
+        return Err(job.reason(SEARCHING));
     }
     Err(Error::Invalid {
         message: validity.summary(),

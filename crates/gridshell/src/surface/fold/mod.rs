@@ -73,9 +73,11 @@ pub fn split_folds(brep: &mut Brep, job: &Job) -> Result<()> {
     let (before, after) = (parts.len(), parts.iter().map(|p| p.1.len()).sum::<usize>());
     let faces = draft.finish(&mut parted, parts);
     parted.faces.extend(faces);
-    parted.notes.push(format!(
-        "{before} face(s) that fold along lines inside them are taken as {after}, which meet in creases"
-    ));
+    parted.notes.push(if before == 1 {
+        format!("1 face that folds along lines inside it is taken as {after}, which meet in creases")
+    } else {
+        format!("{before} faces that fold along lines inside them are taken as {after}, which meet in creases")
+    });
     *brep = parted;
     Ok(())
 }
