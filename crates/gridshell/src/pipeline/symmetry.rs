@@ -30,6 +30,8 @@ const OFF_LENGTH: f64 = 1e-3;
 /// The smooth surface that a mesh stands for may be off its facets by this share of l0, where symmetries are looked for:
 /// no more than a grid may be off its symmetry without it being seen.
 const BOW_LENGTH: f64 = 0.02;
+/// Nodes that are off their images by more than this, over l0, would be noticed.
+const NOTICED: f64 = 0.025;
 /// Nodes nearer than this, over l0, are one.
 const SAME: f64 = 1e-3;
 /// What a stop in here is told as.
@@ -193,6 +195,9 @@ pub fn generate(
         }
     }
     let (grid, quality, validity) = chosen;
+    if uneven {
+        whole.check_images(&grid, &orbits)?;
+    }
     verdict::check(&validity, recipe, surface.origin, length, job)?;
     if let Some(last) = run.stages.last_mut() {
         last.quality = Some(quality.clone());
@@ -329,6 +334,29 @@ impl Whole<'_> {
             whole.settle_exactly(self.surface);
         }
         Ok((whole, Orbits { images, on }))
+    }
+
+    /// Refuse a grid on uneven facets whose nodes are not where their images say.
+    ///
+    /// # Errors
+    /// [`Error::NoGrid`] with the node.
+    fn check_images(&self, grid: &Grid, orbits: &Orbits) -> Result<()> {
+        let motions = self.group.motions();
+        for images in &orbits.images {
+            let first = grid.xyz[images[0] as usize];
+            for (motion, &v) in motions.iter().zip(images) {
+                let p = grid.xyz[v as usize];
+                let off = p.distance(motion.image(first));
+                if off > NOTICED * self.length {
+                    return Err(Error::NoGrid {
+                        at: self.surface.origin.world(p).to_array(),
+                        message: format!("the node there is {off:.3} m off the image of another"),
+                        edge_length: 0.5 * self.length,
+                    });
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The point exactly on its cuts where they are mirror planes, or on the axis.

@@ -25,9 +25,12 @@ const CANDIDATES: f64 = 5.0;
 const GROWTH: f64 = 0.5;
 /// Candidate rows and candidates in a row at most: a guard for degenerate patches.
 const MOST: usize = 20_000;
-/// Candidates for each node that a face may have, before it counts as crumpled: a patch whose two directions run
-/// nearly the same way has many rows and no room for nodes. Sound faces want some 40 for each node.
-const CANDIDATES_TO_A_NODE: usize = 100;
+/// Candidates for each node that a face may have, and in any face, before it counts as crumpled: a patch whose two
+/// directions run nearly the same way has many rows and no room for nodes. Sound faces want some 25 for each such node.
+const CANDIDATES_TO_A_NODE: usize = 50;
+const CANDIDATES_IN_ANY: usize = 1_000_000;
+/// By the probes a face may want this many times as many before it is given up without a try.
+const FORESEEN: f64 = 4.0;
 /// Rows stand at least this share of the face's extent apart.
 const LEAST_STEP: f64 = 1e-5;
 /// Candidates in a row stand at least this share of it apart.
@@ -36,8 +39,9 @@ const LEAST_ADVANCE: f64 = 1e-9;
 const MOST_PROBES: f64 = 160.0;
 
 /// A column of probes leaves out rows where those that it wants stand this many times as far apart: no ratio that a
-/// drawing is likely to have, as rounding would decide then.
-const SPARSE: f64 = 2.3;
+/// drawing is likely to have, as rounding would decide then. Smaller: faces that bend a little more here than there
+/// are sampled otherwise; larger: a sharp bend makes more of the face dear.
+const SPARSE: f64 = 4.3;
 
 /// Nodes for the inside of the polygons `loops`. None where there would be more than `most`, or where the patch is so
 /// crumpled that finding them would take much longer than for as many elsewhere.
@@ -53,15 +57,21 @@ pub(super) fn inside(
     }
     let sizes = Sizes::new(shape, loops, sampling);
     let [lo, hi] = bounds(loops);
+    let candidates = CANDIDATES_IN_ANY + CANDIDATES_TO_A_NODE * most;
+    let share = area(loops) / ((hi.x - lo.x) * (hi.y - lo.y));
+    if sizes.candidates * share > FORESEEN * candidates as f64 {
+        return None;
+    }
     let mut rows = Rows {
         shape,
+        job,
         width: hi.x - lo.x,
         close: LEAST_STEP * (hi.y - lo.y),
         columns: vec![Column::default(); sizes.count[0]],
         taken: Taken::new(sampling.max_edge),
         nodes: Vec::new(),
         most,
-        candidates: CANDIDATES_TO_A_NODE * most,
+        candidates,
         sizes: &sizes,
     };
     for l in loops {
@@ -73,9 +83,6 @@ pub(super) fn inside(
     let mut v = lo.y + LEAST_STEP * (hi.y - lo.y);
     for _ in 0..MOST {
         for stretch in intervals(loops, v) {
-            if job.is_over(PREPARING) {
-                return None;
-            }
             rows.walk(stretch, v)?;
         }
         v += rows.step(v).min((hi.y - lo.y) / 16.0).max(LEAST_STEP * (hi.y - lo.y));
@@ -90,6 +97,7 @@ pub(super) fn inside(
 /// them out: what a sharp bend costs is paid where it is, not across the whole face.
 struct Rows<'a> {
     shape: &'a Shape,
+    job: &'a Job,
     sizes: &'a Sizes,
     /// Extent of the face in u.
     width: f64,
@@ -144,6 +152,9 @@ impl Rows<'_> {
             if u >= to {
                 break;
             }
+            if self.job.is_over(PREPARING) {
+                return None;
+            }
             let (column, end) = self.sizes.column(u);
             let here = &mut self.columns[column];
             if here.due > v + self.close {
@@ -186,6 +197,14 @@ impl Rows<'_> {
     }
 }
 
+/// Area of the polygons in (u, v), holes left out.
+fn area(loops: &[Vec<Node>]) -> f64 {
+    let doubled = |l: &Vec<Node>| -> f64 {
+        (0..l.len()).map(|i| l[i].uv.perp_dot(l[(i + 1) % l.len()].uv)).sum()
+    };
+    0.5 * loops.iter().map(doubled).sum::<f64>().abs()
+}
+
 /// Box of the polygons in (u, v).
 fn bounds(loops: &[Vec<Node>]) -> [DVec2; 2] {
     let all = || loops.iter().flatten().map(|n| n.uv);
@@ -213,6 +232,8 @@ struct Sizes {
     step: DVec2,
     count: [usize; 2],
     spacing: Vec<f64>,
+    /// How many candidates rows of that spacing would have over all probes.
+    candidates: f64,
 }
 
 impl Sizes {
@@ -256,8 +277,17 @@ impl Sizes {
             }
         }
         let spacing = bends.iter().map(|&b| piece_length(sampling, b)).collect();
-        let mut sizes = Sizes { origin: lo, step, count, spacing };
-        sizes.grade(&jets.iter().map(|j| j.point).collect::<Vec<_>>());
+        let mut sizes = Sizes { origin: lo, step, count, spacing, candidates: 0.0 };
+        let points: Vec<DVec3> = jets.iter().map(|j| j.point).collect();
+        sizes.grade(&points);
+        let at = |i: usize, j: usize| i * count[1] + j;
+        for (i, j) in (1..count[0]).flat_map(|i| (1..count[1]).map(move |j| (i, j))) {
+            let corner = points[at(i, j)];
+            let sides =
+                corner.distance(points[at(i - 1, j)]) * corner.distance(points[at(i, j - 1)]);
+            let each = CANDIDATES / sizes.spacing[at(i, j)];
+            sizes.candidates += sides * each * each;
+        }
         sizes
     }
 

@@ -342,6 +342,13 @@ impl<'a> Tracer<'a> {
         let (mut uv, mut foot) = self.shape.project(near, xyz);
         let limit = OFF_PATCH * self.sampling.max_edge;
         if foot.distance(xyz) > self.sampling.chord_error {
+            // The search may have ended in a fold on the way: begin as far beyond it.
+            let (beyond, beyond_foot) = self.shape.project(uv + (uv - near), xyz);
+            if beyond_foot.distance(xyz) < 0.5 * foot.distance(xyz) {
+                (uv, foot) = (beyond, beyond_foot);
+            }
+        }
+        if foot.distance(xyz) > self.sampling.chord_error {
             let (other, other_foot) = self.seeds.project(self.shape, xyz);
             if other_foot.distance(xyz) < 0.5 * foot.distance(xyz) {
                 let period = self.shape.period();
