@@ -63,7 +63,7 @@ pub fn taken(laid: &Laid, index: u32, job: &Job) -> Result<Run> {
     let quality = judge(&grid);
     let validity = Validity::of(&grid, &surface, run.edge_length, &quality);
     let places = gridshell::surface::Origin::default();
-    pipeline::refuse_invalid(&validity, &run.recipe, places, run.edge_length)?;
+    pipeline::refuse_invalid(&validity, &run.recipe, places, run.edge_length, &Job::default())?;
     let schedule = Schedule::new(&grid, &surface, &Tolerances::from(options));
     let mut candidates = run.candidates.clone();
     candidates[..=index as usize].rotate_right(1);

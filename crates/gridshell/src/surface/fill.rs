@@ -25,11 +25,13 @@ const CANDIDATES: f64 = 5.0;
 const GROWTH: f64 = 0.5;
 /// Candidate rows and candidates in a row at most: a guard for degenerate patches.
 const MOST: usize = 20_000;
-/// Candidates for each node that a face may have, and in any face, before it counts as crumpled: a patch whose two
-/// directions run nearly the same way has many rows and no room for nodes. Sound faces want some 25 for each such node.
-const CANDIDATES_TO_A_NODE: usize = 50;
-const CANDIDATES_IN_ANY: usize = 1_000_000;
-/// By the probes a face may want this many times as many before it is given up without a try.
+/// Points looked at before a face counts as crumpled: so many in any face (half a second), and so many for each node
+/// that it may have. A crumpled face has sheets upon sheets in one place, or two directions that run nearly the same way.
+pub(super) const LOOKS: usize = 60_000_000;
+pub(super) const LOOKS_TO_A_NODE: usize = 600;
+/// What a candidate takes besides, most of it for its point and normal, in such looks.
+const LOOKS_TO_A_CANDIDATE: usize = 50;
+/// By its probes a face may want this many times as many candidates before it is given up without a try.
 const FORESEEN: f64 = 4.0;
 /// Rows stand at least this share of the face's extent apart.
 const LEAST_STEP: f64 = 1e-5;
@@ -50,6 +52,7 @@ pub(super) fn inside(
     loops: &[Vec<Node>],
     sampling: &Sampling,
     most: usize,
+    looks: usize,
     job: &Job,
 ) -> Option<Vec<Node>> {
     if job.is_over(PREPARING) {
@@ -57,9 +60,9 @@ pub(super) fn inside(
     }
     let sizes = Sizes::new(shape, loops, sampling);
     let [lo, hi] = bounds(loops);
-    let candidates = CANDIDATES_IN_ANY + CANDIDATES_TO_A_NODE * most;
     let share = area(loops) / ((hi.x - lo.x) * (hi.y - lo.y));
-    if sizes.candidates * share > FORESEEN * candidates as f64 {
+    let wanted = sizes.candidates * share * LOOKS_TO_A_CANDIDATE as f64;
+    if wanted > FORESEEN * looks as f64 {
         return None;
     }
     let mut rows = Rows {
@@ -71,7 +74,7 @@ pub(super) fn inside(
         taken: Taken::new(sampling.max_edge),
         nodes: Vec::new(),
         most,
-        candidates,
+        looks,
         sizes: &sizes,
     };
     for l in loops {
@@ -106,9 +109,9 @@ struct Rows<'a> {
     columns: Vec<Column>,
     taken: Taken,
     nodes: Vec<Node>,
-    /// Nodes at most, and candidates that may still be looked at.
+    /// Nodes and looks at most.
     most: usize,
-    candidates: usize,
+    looks: usize,
 }
 
 /// What a column of probes wants of the rows.
@@ -172,8 +175,7 @@ impl Rows<'_> {
                 self.taken.push(jet.point, normal, size);
                 self.nodes.push(Node { uv, xyz: jet.point, vertex: NEW, free: None });
             }
-            self.candidates = self.candidates.checked_sub(1)?;
-            if self.nodes.len() > self.most {
+            if self.nodes.len() > self.most || self.taken.looks > self.looks {
                 return None;
             }
             u += (wanted / (CANDIDATES * along.max(1e-300)))
@@ -339,6 +341,8 @@ struct Taken {
     /// Width of the widest cells.
     cell: f64,
     levels: [Cells; LEVELS],
+    /// Points that were looked at so far.
+    looks: usize,
 }
 
 /// Points, normals and spacings by cell.
@@ -367,31 +371,28 @@ impl Hasher for Mix {
 
 impl Taken {
     fn new(cell: f64) -> Taken {
-        Taken { cell, levels: Default::default() }
-    }
-
-    /// Width of the cells of a level.
-    fn width(&self, level: usize) -> f64 {
-        self.cell / f64::from(1_u32 << level)
+        Taken { cell, levels: Default::default(), looks: 0 }
     }
 
     fn push(&mut self, point: DVec3, normal: DVec3, size: f64) {
-        let finer = |&l: &usize| size <= self.width(l) * (1.0 + ROUNDING);
+        let finer = |&l: &usize| size <= width(self.cell, l) * (1.0 + ROUNDING);
         let level = (1..LEVELS).take_while(finer).last().unwrap_or(0);
-        let key = key(point, self.width(level));
+        let key = key(point, width(self.cell, level));
         self.levels[level].entry(key).or_default().push((point, normal, size));
     }
 
     /// The spacing a point here would have, if there is room for it.
-    fn room(&self, p: DVec3, normal: DVec3, wanted: f64) -> Option<f64> {
+    fn room(&mut self, p: DVec3, normal: DVec3, wanted: f64) -> Option<f64> {
         let mut size = wanted;
         let mut nearest = f64::INFINITY;
-        for (level, cells) in self.levels.iter().enumerate() {
+        let Taken { cell, levels, looks } = self;
+        *looks += LOOKS_TO_A_CANDIDATE;
+        for (level, cells) in levels.iter().enumerate() {
             if cells.is_empty() {
                 continue;
             }
             // Points of finer spacing than wanted only matter close to them.
-            let width = self.width(level);
+            let width = width(*cell, level);
             let reach = wanted.min(width);
             let (lo, hi) = (key(p - reach, width), key(p + reach, width));
             let cells = (lo.x..=hi.x).flat_map(|x| {
@@ -400,6 +401,7 @@ impl Taken {
                     .filter_map(|k| cells.get(&k))
             });
             for &(q, m, s) in cells.flatten() {
+                *looks += 1;
                 let d = p.distance(q);
                 // A sheet that faces away lies on the other side of a fold.
                 if d >= wanted || m.dot(normal) < 0.0 {
@@ -414,6 +416,11 @@ impl Taken {
         }
         (nearest >= APART * size).then_some(size)
     }
+}
+
+/// Width of the cells of a level, where the widest have the width `cell`.
+fn width(cell: f64, level: usize) -> f64 {
+    cell / f64::from(1_u32 << level)
 }
 
 /// The cell of this width that holds `p`.

@@ -218,10 +218,12 @@ fn piece(
         from += n;
     }
     let most = most_nodes(shape, [lo, hi], &loops, sampling);
-    let mut eased = *sampling;
+    let (mut eased, mut looks) = (*sampling, fill::LOOKS + fill::LOOKS_TO_A_NODE * most);
     let inside = (0..MOST_EASINGS).find_map(|_| {
-        let inside = fill::inside(shape, &loops, &eased, most, job);
+        let inside = fill::inside(shape, &loops, &eased, most, looks, job);
         eased.chord_error *= EASED;
+        // Half the bends need half the rows or fewer; all that follow take no more time than the first did.
+        looks /= 2;
         inside
     });
     nodes.extend(inside.ok_or(
