@@ -25,14 +25,12 @@ const CANDIDATES: f64 = 5.0;
 const GROWTH: f64 = 0.5;
 /// Candidate rows and candidates in a row at most: a guard for degenerate patches.
 const MOST: usize = 20_000;
-/// Points looked at before a face counts as crumpled: so many in any face (half a second), and so many for each node
+/// Points looked at before a face counts as crumpled: so many in any face (two seconds), and so many for each node
 /// that it may have. A crumpled face has sheets upon sheets in one place, or two directions that run nearly the same way.
-pub(super) const LOOKS: usize = 60_000_000;
+pub(super) const LOOKS: usize = 250_000_000;
 pub(super) const LOOKS_TO_A_NODE: usize = 600;
 /// What a candidate takes besides, most of it for its point and normal, in such looks.
 const LOOKS_TO_A_CANDIDATE: usize = 50;
-/// By its probes a face may want this many times as many candidates before it is given up without a try.
-const FORESEEN: f64 = 4.0;
 /// Rows stand at least this share of the face's extent apart.
 const LEAST_STEP: f64 = 1e-5;
 /// Candidates in a row stand at least this share of it apart.
@@ -60,11 +58,6 @@ pub(super) fn inside(
     }
     let sizes = Sizes::new(shape, loops, sampling);
     let [lo, hi] = bounds(loops);
-    let share = area(loops) / ((hi.x - lo.x) * (hi.y - lo.y));
-    let wanted = sizes.candidates * share * LOOKS_TO_A_CANDIDATE as f64;
-    if wanted > FORESEEN * looks as f64 {
-        return None;
-    }
     let mut rows = Rows {
         shape,
         job,
@@ -199,14 +192,6 @@ impl Rows<'_> {
     }
 }
 
-/// Area of the polygons in (u, v), holes left out.
-fn area(loops: &[Vec<Node>]) -> f64 {
-    let doubled = |l: &Vec<Node>| -> f64 {
-        (0..l.len()).map(|i| l[i].uv.perp_dot(l[(i + 1) % l.len()].uv)).sum()
-    };
-    0.5 * loops.iter().map(doubled).sum::<f64>().abs()
-}
-
 /// Box of the polygons in (u, v).
 fn bounds(loops: &[Vec<Node>]) -> [DVec2; 2] {
     let all = || loops.iter().flatten().map(|n| n.uv);
@@ -234,8 +219,6 @@ struct Sizes {
     step: DVec2,
     count: [usize; 2],
     spacing: Vec<f64>,
-    /// How many candidates rows of that spacing would have over all probes.
-    candidates: f64,
 }
 
 impl Sizes {
@@ -279,17 +262,9 @@ impl Sizes {
             }
         }
         let spacing = bends.iter().map(|&b| piece_length(sampling, b)).collect();
-        let mut sizes = Sizes { origin: lo, step, count, spacing, candidates: 0.0 };
+        let mut sizes = Sizes { origin: lo, step, count, spacing };
         let points: Vec<DVec3> = jets.iter().map(|j| j.point).collect();
         sizes.grade(&points);
-        let at = |i: usize, j: usize| i * count[1] + j;
-        for (i, j) in (1..count[0]).flat_map(|i| (1..count[1]).map(move |j| (i, j))) {
-            let corner = points[at(i, j)];
-            let sides =
-                corner.distance(points[at(i - 1, j)]) * corner.distance(points[at(i, j - 1)]);
-            let each = CANDIDATES / sizes.spacing[at(i, j)];
-            sizes.candidates += sides * each * each;
-        }
         sizes
     }
 
