@@ -25,26 +25,20 @@ const CANDIDATES: f64 = 5.0;
 const GROWTH: f64 = 0.5;
 /// Candidate rows and candidates in a row at most: a guard for degenerate patches.
 const MOST: usize = 20_000;
-/// Points looked at before a face counts as crumpled: so many in any face (two seconds), and so many for each node
-/// that it may have. A crumpled face has sheets upon sheets in one place, or two directions that run nearly the same way.
+/// Points looked at, before a face counts as crowded: so many in any face (two seconds), for bends that are much sharper
+/// in one place than in others, as at the tip of a vault or in waves; and so many for each node that it may have. Faces
+/// without fault were seen to take up to 240 million; large even ones should take 570 (estimated) for each such node.
 pub(super) const LOOKS: usize = 250_000_000;
 pub(super) const LOOKS_TO_A_NODE: usize = 600;
 /// What a candidate takes besides, most of it for its point and normal, in such looks.
 const LOOKS_TO_A_CANDIDATE: usize = 50;
 /// Rows stand at least this share of the face's extent apart.
 const LEAST_STEP: f64 = 1e-5;
-/// Candidates in a row stand at least this share of it apart.
-const LEAST_ADVANCE: f64 = 1e-9;
 /// Probes of the bending at most in each direction.
 const MOST_PROBES: f64 = 160.0;
 
-/// A column of probes leaves out rows where those that it wants stand this many times as far apart: no ratio that a
-/// drawing is likely to have, as rounding would decide then. Smaller: faces that bend a little more here than there
-/// are sampled otherwise; larger: a sharp bend makes more of the face dear.
-const SPARSE: f64 = 4.3;
-
-/// Nodes for the inside of the polygons `loops`. None where there would be more than `most`, or where the patch is so
-/// crumpled that finding them would take much longer than for as many elsewhere.
+/// Nodes for the inside of the polygons `loops`. None where there would be more than `most`, or where they crowd
+/// so that finding them takes more than so many `looks` at points.
 pub(super) fn inside(
     shape: &Shape,
     loops: &[Vec<Node>],
@@ -57,139 +51,65 @@ pub(super) fn inside(
         return None;
     }
     let sizes = Sizes::new(shape, loops, sampling);
-    let [lo, hi] = bounds(loops);
-    let mut rows = Rows {
-        shape,
-        job,
-        width: hi.x - lo.x,
-        close: LEAST_STEP * (hi.y - lo.y),
-        columns: vec![Column::default(); sizes.count[0]],
-        taken: Taken::new(sampling.max_edge),
-        nodes: Vec::new(),
-        most,
-        looks,
-        sizes: &sizes,
-    };
+    let mut taken = Taken::new(sampling.max_edge);
     for l in loops {
         for i in 0..l.len() {
-            rows.take_rim(&l[i], &l[(i + 1) % l.len()], sampling);
+            let (a, b) = (&l[i], &l[(i + 1) % l.len()]);
+            let length = a.xyz.distance(b.xyz);
+            if a.free.is_some() && a.vertex == b.vertex {
+                taken.push(a.xyz, DVec3::ZERO, sizes.at(a.uv));
+                continue;
+            }
+            let size =
+                sizes.at(0.5 * (a.uv + b.uv)).min(length).max(sampling.max_edge * LEAST_SHARE);
+            // A piece longer than the spacing beside it must keep points off between its ends too.
+            let pieces = (length / size - ROUNDING).ceil().max(1.0);
+            for k in 0..pieces as usize {
+                let uv = a.uv.lerp(b.uv, k as f64 / pieces);
+                let at = a.xyz.lerp(b.xyz, k as f64 / pieces);
+                taken.push(at, shape.jet(uv).normal(), size);
+            }
         }
     }
+    let mut nodes = Vec::new();
+    let [lo, hi] = bounds(loops);
     // A first row on the side itself would find it above or below by rounding.
     let mut v = lo.y + LEAST_STEP * (hi.y - lo.y);
     for _ in 0..MOST {
-        for stretch in intervals(loops, v) {
-            rows.walk(stretch, v)?;
+        let mut step = f64::INFINITY;
+        for [u0, u1] in intervals(loops, v) {
+            let mut u = u0;
+            for _ in 0..MOST {
+                if u >= u1 {
+                    break;
+                }
+                if job.is_over(PREPARING) {
+                    return None;
+                }
+                let uv = DVec2::new(u, v);
+                let jet = shape.jet(uv);
+                let wanted = sizes.at(uv);
+                let (along, across) = (jet.du.length(), jet.dv.length());
+                step = step.min(wanted / (CANDIDATES * across.max(1e-300)));
+                let normal = jet.normal();
+                if let Some(size) = taken.room(jet.point, normal, wanted) {
+                    taken.push(jet.point, normal, size);
+                    nodes.push(Node { uv, xyz: jet.point, vertex: NEW, free: None });
+                }
+                if nodes.len() > most || taken.looks > looks {
+                    return None;
+                }
+                u += (wanted / (CANDIDATES * along.max(1e-300)))
+                    .min(0.5 * (u1 - u0))
+                    .max(1e-9 * (hi.x - lo.x));
+            }
         }
-        v += rows.step(v).min((hi.y - lo.y) / 16.0).max(LEAST_STEP * (hi.y - lo.y));
+        v += step.min((hi.y - lo.y) / 16.0).max(LEAST_STEP * (hi.y - lo.y));
         if v >= hi.y {
             break;
         }
     }
-    Some(rows.nodes)
-}
-
-/// Candidates in rows over the patch. Where one place wants close rows, columns of probes that do not leave most of
-/// them out: what a sharp bend costs is paid where it is, not across the whole face.
-struct Rows<'a> {
-    shape: &'a Shape,
-    job: &'a Job,
-    sizes: &'a Sizes,
-    /// Extent of the face in u.
-    width: f64,
-    /// Rows are not nearer to each other in v: what is due within that is due now, as rounding would decide else.
-    close: f64,
-    columns: Vec<Column>,
-    taken: Taken,
-    nodes: Vec<Node>,
-    /// Nodes and looks at most.
-    most: usize,
-    looks: usize,
-}
-
-/// What a column of probes wants of the rows.
-#[derive(Clone, Copy)]
-struct Column {
-    /// The row that it waits for.
-    due: f64,
-    /// How far its next row may be from this one; infinite where the row did not cross it.
-    step: f64,
-}
-
-impl Default for Column {
-    fn default() -> Column {
-        Column { due: f64::NEG_INFINITY, step: f64::INFINITY }
-    }
-}
-
-impl Rows<'_> {
-    /// Keep points off a piece of the rim.
-    fn take_rim(&mut self, a: &Node, b: &Node, sampling: &Sampling) {
-        let length = a.xyz.distance(b.xyz);
-        if a.free.is_some() && a.vertex == b.vertex {
-            self.taken.push(a.xyz, DVec3::ZERO, self.sizes.at(a.uv));
-            return;
-        }
-        let size = self.sizes.at(0.5 * (a.uv + b.uv)).min(length);
-        let size = size.max(sampling.max_edge * LEAST_SHARE);
-        // A piece longer than the spacing beside it must keep points off between its ends too.
-        let pieces = (length / size - ROUNDING).ceil().max(1.0);
-        for k in 0..pieces as usize {
-            let uv = a.uv.lerp(b.uv, k as f64 / pieces);
-            let at = a.xyz.lerp(b.xyz, k as f64 / pieces);
-            self.taken.push(at, self.shape.jet(uv).normal(), size);
-        }
-    }
-
-    /// Try candidates along a stretch of the row at `v`. None where there are too many.
-    fn walk(&mut self, [from, to]: [f64; 2], v: f64) -> Option<()> {
-        let mut u = from;
-        for _ in 0..MOST {
-            if u >= to {
-                break;
-            }
-            if self.job.is_over(PREPARING) {
-                return None;
-            }
-            let (column, end) = self.sizes.column(u);
-            let here = &mut self.columns[column];
-            if here.due > v + self.close {
-                here.step = here.step.min(here.due - v);
-                u = end.max(u + LEAST_ADVANCE * self.width);
-                continue;
-            }
-            let uv = DVec2::new(u, v);
-            let jet = self.shape.jet(uv);
-            let wanted = self.sizes.at(uv);
-            let (along, across) = (jet.du.length(), jet.dv.length());
-            here.step = here.step.min(wanted / (CANDIDATES * across.max(1e-300)));
-            let normal = jet.normal();
-            if let Some(size) = self.taken.room(jet.point, normal, wanted) {
-                self.taken.push(jet.point, normal, size);
-                self.nodes.push(Node { uv, xyz: jet.point, vertex: NEW, free: None });
-            }
-            if self.nodes.len() > self.most || self.taken.looks > self.looks {
-                return None;
-            }
-            u += (wanted / (CANDIDATES * along.max(1e-300)))
-                .min(0.5 * (to - from))
-                .max(LEAST_ADVANCE * self.width);
-        }
-        Some(())
-    }
-
-    /// How far the row after that at `v` is away. Columns that want sparser ones wait.
-    fn step(&mut self, v: f64) -> f64 {
-        let step = self.columns.iter().map(|c| c.step).fold(f64::INFINITY, f64::min);
-        for c in &mut self.columns {
-            if c.due <= v + self.close {
-                let waits = c.step.is_finite() && c.step >= SPARSE * step;
-                c.due = if waits { v + c.step } else { f64::NEG_INFINITY };
-            }
-            c.step = f64::INFINITY;
-        }
-        step
-    }
+    Some(nodes)
 }
 
 /// Box of the polygons in (u, v).
@@ -262,37 +182,7 @@ impl Sizes {
             }
         }
         let spacing = bends.iter().map(|&b| piece_length(sampling, b)).collect();
-        let mut sizes = Sizes { origin: lo, step, count, spacing };
-        let points: Vec<DVec3> = jets.iter().map(|j| j.point).collect();
-        sizes.grade(&points);
-        sizes
-    }
-
-    /// Let the spacing grow gently away from where it is fine, over probes at these `points`.
-    fn grade(&mut self, points: &[DVec3]) {
-        let [rows, across] = self.count;
-        let mut ease = |a: usize, b: usize| {
-            let eased = self.spacing[b] + GROWTH * points[a].distance(points[b]);
-            self.spacing[a] = self.spacing[a].min(eased);
-        };
-        // There and back: each probe learns from the two before it, then from the two behind.
-        let before = |k: usize| {
-            let above = (k >= across).then(|| k - across);
-            above.into_iter().chain((!k.is_multiple_of(across)).then(|| k - 1))
-        };
-        for k in 0..rows * across {
-            before(k).for_each(|j| ease(k, j));
-        }
-        for k in (0..rows * across).rev() {
-            before(k).for_each(|j| ease(j, k));
-        }
-    }
-
-    /// The column of probes that holds `u`, and where it ends.
-    fn column(&self, u: f64) -> (usize, f64) {
-        let at = ((u - self.origin.x) / self.step.x).max(0.0) as usize;
-        let column = at.min(self.count[0] - 2);
-        (column, self.origin.x + self.step.x * (column + 1) as f64)
+        Sizes { origin: lo, step, count, spacing }
     }
 
     /// The smallest spacing at the corners of the probes' cell that holds `uv`, or of both cells that meet there.
@@ -307,21 +197,13 @@ impl Sizes {
     }
 }
 
-/// Levels of cells, each half as wide as the one before: down to the finest spacing, 1 / 64.
-const LEVELS: usize = 7;
-
-/// The points taken so far, by cells of space: on each level those whose spacing is between half a cell and a whole one,
-/// so that no cell holds many.
+/// The points taken so far, by cells of space.
 struct Taken {
-    /// Width of the widest cells.
     cell: f64,
-    levels: [Cells; LEVELS],
+    cells: HashMap<IVec3, Vec<(DVec3, DVec3, f64)>, BuildHasherDefault<Mix>>,
     /// Points that were looked at so far.
     looks: usize,
 }
-
-/// Points, normals and spacings by cell.
-type Cells = HashMap<IVec3, Vec<(DVec3, DVec3, f64)>, BuildHasherDefault<Mix>>;
 
 /// Hashes the three numbers of a cell, quickly: nobody chooses them to collide.
 #[derive(Default)]
@@ -346,59 +228,42 @@ impl Hasher for Mix {
 
 impl Taken {
     fn new(cell: f64) -> Taken {
-        Taken { cell, levels: Default::default(), looks: 0 }
+        Taken { cell, cells: HashMap::default(), looks: 0 }
+    }
+
+    fn key(&self, p: DVec3) -> IVec3 {
+        (p / self.cell).floor().as_ivec3()
     }
 
     fn push(&mut self, point: DVec3, normal: DVec3, size: f64) {
-        let finer = |&l: &usize| size <= width(self.cell, l) * (1.0 + ROUNDING);
-        let level = (1..LEVELS).take_while(finer).last().unwrap_or(0);
-        let key = key(point, width(self.cell, level));
-        self.levels[level].entry(key).or_default().push((point, normal, size));
+        self.cells.entry(self.key(point)).or_default().push((point, normal, size));
     }
 
     /// The spacing a point here would have, if there is room for it.
     fn room(&mut self, p: DVec3, normal: DVec3, wanted: f64) -> Option<f64> {
+        let (lo, hi) = (self.key(p - wanted), self.key(p + wanted));
         let mut size = wanted;
         let mut nearest = f64::INFINITY;
-        let Taken { cell, levels, looks } = self;
-        *looks += LOOKS_TO_A_CANDIDATE;
-        for (level, cells) in levels.iter().enumerate() {
-            if cells.is_empty() {
-                continue;
-            }
-            // Points of finer spacing than wanted only matter close to them.
-            let width = width(*cell, level);
-            let reach = wanted.min(width);
-            let (lo, hi) = (key(p - reach, width), key(p + reach, width));
-            let cells = (lo.x..=hi.x).flat_map(|x| {
-                (lo.y..=hi.y)
-                    .flat_map(move |y| (lo.z..=hi.z).map(move |z| IVec3::new(x, y, z)))
-                    .filter_map(|k| cells.get(&k))
-            });
-            for &(q, m, s) in cells.flatten() {
-                *looks += 1;
-                let d = p.distance(q);
-                // A sheet that faces away lies on the other side of a fold.
-                if d >= wanted || m.dot(normal) < 0.0 {
-                    continue;
-                }
-                nearest = nearest.min(d);
-                size = size.min(s + GROWTH * d);
-                if nearest < APART * size * 0.5 {
-                    return None;
+        self.looks += LOOKS_TO_A_CANDIDATE;
+        for x in lo.x..=hi.x {
+            for y in lo.y..=hi.y {
+                for z in lo.z..=hi.z {
+                    for &(q, m, s) in self.cells.get(&IVec3::new(x, y, z)).into_iter().flatten() {
+                        self.looks += 1;
+                        let d = p.distance(q);
+                        // A sheet that faces away lies on the other side of a fold.
+                        if d >= wanted || m.dot(normal) < 0.0 {
+                            continue;
+                        }
+                        nearest = nearest.min(d);
+                        size = size.min(s + GROWTH * d);
+                        if nearest < APART * size * 0.5 {
+                            return None;
+                        }
+                    }
                 }
             }
         }
         (nearest >= APART * size).then_some(size)
     }
-}
-
-/// Width of the cells of a level, where the widest have the width `cell`.
-fn width(cell: f64, level: usize) -> f64 {
-    cell / f64::from(1_u32 << level)
-}
-
-/// The cell of this width that holds `p`.
-fn key(p: DVec3, width: f64) -> IVec3 {
-    (p / width).floor().as_ivec3()
 }
