@@ -2,7 +2,7 @@
 //!
 //! A symmetry is believed when the images of the carrier's vertices lie on the surface and those of its loops'
 //! on the loops. Of a mesh, whose facets are seldom symmetric, they may also lie where the smooth surface that it stands
-//! for may be ([`bow`](super::bow)). Where the axis or plane lies is not guessed from the carrier, which is not symmetric itself,
+//! for may be (`bow`). Where the axis or plane lies is not guessed from the carrier, which is not symmetric itself,
 //! but fitted to the exact surface.
 
 use super::bow::Bows;

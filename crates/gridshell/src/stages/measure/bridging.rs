@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 /// The walk has arrived when it ends within this share of l0.
 const ARRIVED: f64 = 0.1;
 
-/// Number of [`members`].
+/// Number of bridging members.
 pub fn count(grid: &Grid, surface: &Surface, edge_length: f64) -> usize {
     members(grid, surface, edge_length, &Job::default()).len()
 }
