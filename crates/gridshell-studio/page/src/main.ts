@@ -482,6 +482,8 @@ function show(run: number): void {
   shown = run;
   draw(null);
   picked = null;
+  asked = false;
+  acts.clear();
   tip.hidden = true;
   editing.run(run);
   candidates.choose(-1);
@@ -716,9 +718,9 @@ function compareWith(run: number): void {
 let again = false;
 /** What is to be done with the answers to some questions. */
 const acts = new Map<number, () => void>();
-/** Do what is about the place that is under the pointer now, once it is known. */
+/** Do what is about the place that is under the pointer now, once it is known, and after what was asked before. */
 function settled(act: () => void): void {
-  if (!asked || !lastPointer) return act();
+  if ((!asked && !acts.size) || !lastPointer) return act();
   acts.set(++question, act);
   pick(lastPointer);
 }

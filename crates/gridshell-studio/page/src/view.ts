@@ -143,6 +143,7 @@ export class View {
 
   showGrid(frame: Frame): void {
     this.grid.show(frame);
+    this.frames(new Box3().setFromArray(floats(frame, "xyz")));
     this.surface.veil(true, this.ghost);
     this.bubbles.points.visible = false;
     this.sharpen();
@@ -168,6 +169,16 @@ export class View {
   pointAt(part: number): void {
     this.surface.pointAt(part);
     this.redraw();
+  }
+
+  /** Look at all of a grid that lies on another surface than what was looked at. */
+  private frames(grid: Box3): void {
+    const reach = (box: Box3) => box.getSize(new Vector3()).length() || 1;
+    const apart = grid.getCenter(new Vector3()).distanceTo(this.box.getCenter(new Vector3()));
+    const ratio = reach(grid) / reach(this.box);
+    if (ratio > 0.5 && ratio < 2 && apart < 0.5 * reach(this.box)) return;
+    this.box.copy(grid);
+    this.whole();
   }
 
   /** Look at all of it again, from the same side. */

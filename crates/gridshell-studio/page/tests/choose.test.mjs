@@ -95,7 +95,7 @@ test("a guide is drawn on the grid, followed, and removed; so is an anchor", asy
   await page.keyboard.press("Enter");
   await done(1, "add a guide");
   const features = async (name) => {
-    const path = await downloaded(page, name, () => page.click("#save"));
+    const path = await drive.saved(page, name);
     return JSON.parse(readFileSync(path, "utf8")).features.length;
   };
   assert.ok((await features("guided.gridshell")) >= 3);

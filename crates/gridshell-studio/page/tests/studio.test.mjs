@@ -114,7 +114,7 @@ test("while a run goes on, another grid is edited: suggestions, tips and operati
   await page.getByRole("button", { name: "Top", exact: true }).click();
   const mine = (await seen(page)).shown;
   await choose(page, "great-court");
-  await generate(page, { effort: "best", edge_length: "1" });
+  await generate(page, { effort: "best", edge_length: "0.4" });
   await page.waitForFunction((m) => (window.studio.seen.runs.at(-1)?.run ?? 0) > m, mine, PATIENCE);
   await page.waitForFunction(() => window.studio.seen.liveFrames > 5, null, PATIENCE);
   await page.locator(`[data-run="${mine}"]`).click();
