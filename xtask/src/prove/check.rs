@@ -4,17 +4,19 @@ use std::collections::HashMap;
 
 type Point = [f64; 3];
 
-/// Two nodes are no nearer than this share of the mean member.
-const NEAREST: f64 = 0.05;
-/// Neighbouring panels turn by less than the angle of this cosine (150 degrees): surfaces drawn here bend less.
+/// Two nodes are no nearer than this share of the mean member, which may be longer than what is promised a share of.
+const NEAREST: f64 = 0.03;
+/// Neighbouring panels turn by less than the angle of this cosine (150 degrees), or by what the surface itself does.
 const FOLDED: f64 = -0.866;
+/// Rounding in a file's coordinates turns panels by as much, as a change of the cosine.
+const ROUNDING: f64 = 1e-3;
 
 /// The area of the grid in `text`, where it is a connected manifold with this Euler characteristic, no two nodes at one
-/// place and no folded panel.
+/// place and no panels that turn further than the `sharpest` bend of its surface, given by its cosine.
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn valid(text: &str, euler: Option<i64>) -> Result<f64, String> {
+pub fn valid(text: &str, euler: Option<i64>, sharpest: f64) -> Result<f64, String> {
     let (points, panels) = read(text)?;
     let sides = sides(&panels)?;
     let got = points.len() as i64 - sides.len() as i64 + panels.len() as i64;
@@ -23,7 +25,12 @@ pub fn valid(text: &str, euler: Option<i64>) -> Result<f64, String> {
     }
     connected(points.len(), &panels)?;
     apart(&points, &sides)?;
-    unfolded(&points, &panels, &sides)?;
+    if let Some(pair) =
+        bends(&points, &panels, &sides).find(|b| b.1 < FOLDED.min(sharpest - ROUNDING))
+    {
+        let [a, b] = pair.0;
+        return Err(format!("panels {} and {} fold over", a + 1, b + 1));
+    }
     Ok(panels.iter().map(|&p| 0.5 * length(normal(&points, p))).sum())
 }
 
@@ -126,20 +133,25 @@ fn apart(points: &[Point], sides: &HashMap<(usize, usize), Vec<usize>>) -> Resul
     Ok(())
 }
 
-fn unfolded(
-    points: &[Point],
-    panels: &[[usize; 3]],
+/// The cosine of the sharpest bend between the faces of a mesh; 1 where all is flat.
+pub fn sharpest(points: &[Point], faces: &[[usize; 3]]) -> f64 {
+    let sides = sides(faces).unwrap_or_default();
+    bends(points, faces, &sides).map(|b| b.1).fold(1.0, f64::min)
+}
+
+/// Panels that meet, and the cosine of the angle between their normals.
+fn bends<'a>(
+    points: &'a [Point],
+    panels: &'a [[usize; 3]],
     sides: &HashMap<(usize, usize), Vec<usize>>,
-) -> Result<(), String> {
-    let mut pairs: Vec<&Vec<usize>> = sides.values().filter(|s| s.len() == 2).collect();
+) -> impl Iterator<Item = ([usize; 2], f64)> + 'a {
+    let mut pairs: Vec<[usize; 2]> =
+        sides.values().filter_map(|s| s.as_slice().try_into().ok()).collect();
     pairs.sort_unstable();
-    for pair in pairs {
-        let [n, m] = [pair[0], pair[1]].map(|t| normal(points, panels[t]));
-        if dot(n, m) < FOLDED * length(n) * length(m) {
-            return Err(format!("panels {} and {} fold over", pair[0] + 1, pair[1] + 1));
-        }
-    }
-    Ok(())
+    pairs.into_iter().map(|pair| {
+        let [n, m] = pair.map(|t| normal(points, panels[t]));
+        (pair, dot(n, m) / (length(n) * length(m)))
+    })
 }
 
 fn normal(points: &[Point], [a, b, c]: [usize; 3]) -> Point {
@@ -167,13 +179,13 @@ mod tests {
 
     #[test]
     fn square_of_two_panels_is_valid() {
-        assert!((valid(SQUARE, Some(1)).unwrap() - 1.0).abs() < 1e-12);
-        assert!(valid(SQUARE, Some(0)).unwrap_err().contains("Euler"));
+        assert!((valid(SQUARE, Some(1), 1.0).unwrap() - 1.0).abs() < 1e-12);
+        assert!(valid(SQUARE, Some(0), 1.0).unwrap_err().contains("Euler"));
     }
 
     #[test]
     fn every_fault_is_seen() {
-        let told = |text: &str| valid(text, None).unwrap_err();
+        let told = |text: &str| valid(text, None, 1.0).unwrap_err();
         assert!(told(&SQUARE.replace("f 1 3 4", "f 3 1 4")).contains("manifold"));
         assert!(told(&SQUARE.replace("v 0 1 0", "v 1 0 1e-9")).contains("apart"));
         assert!(told(&SQUARE.replace("v 0 1 0", "v 0.9 0.1 0")).contains("fold"));

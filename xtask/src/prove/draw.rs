@@ -18,6 +18,8 @@ pub struct Drawn {
     pub area: f64,
     /// Vertices less edges and faces.
     pub euler: i64,
+    /// The cosine of the sharpest bend between two of its faces; 1 where that is not asked.
+    pub sharpest: f64,
 }
 
 /// Where a survey's coordinates begin.
@@ -91,7 +93,7 @@ fn waves(rng: &mut Rng, shift: [f64; 3]) -> Drawn {
 
 fn drawn(what: &'static str, patch: &Patch, rng: &mut Rng) -> Drawn {
     let text = patch.step(rng.bool());
-    Drawn { what, extension: "step", text, area: patch.area(), euler: 1 }
+    Drawn { what, extension: "step", text, area: patch.area(), euler: 1, sharpest: 1.0 }
 }
 
 /// What is wrong with a mesh.
@@ -232,7 +234,8 @@ impl Mesh {
             area += super::patch::triangle(f.map(|v| self.points[v]));
         }
         let euler = i64::from(used) - sides.len() as i64 + self.faces.len() as i64;
-        Drawn { what, extension: "obj", text, area, euler }
+        let sharpest = super::check::sharpest(&self.points, &self.faces);
+        Drawn { what, extension: "obj", text, area, euler, sharpest }
     }
 }
 

@@ -120,7 +120,8 @@ fn verdict(ran: &Watched, grid: &Path, drawn: Option<&Drawn>) -> Result<bool, St
     match ran.code {
         Some(0) => {
             let text = fs::read_to_string(grid).map_err(|e| format!("no grid: {e}"))?;
-            let area = check::valid(&text, drawn.map(|d| d.euler))?;
+            let sharpest = drawn.map_or(-1.0, |d| d.sharpest);
+            let area = check::valid(&text, drawn.map(|d| d.euler), sharpest)?;
             let share = drawn.map_or(1.0, |d| area / d.area);
             if !(AREA[0]..=AREA[1]).contains(&share) {
                 return Err(format!("area {share:.3} of the surface's"));

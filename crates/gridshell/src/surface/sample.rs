@@ -15,6 +15,10 @@ const MOST_PIECES: f64 = 1e6;
 /// An edge that turns by more than this, radians, has at least two pieces.
 const TURNS: f64 = 0.2;
 
+/// Knots nearer to an end of an edge than this share of its range are that end: ends that were computed are off by
+/// rounding, and two vertices at one place would tear the faces beside them apart.
+const AT_END: f64 = 1e-9;
+
 /// Lengths that differ by this share are the same one, rounded differently: files hold nine digits and more. What
 /// only just needs splitting, one piece more or one more probe, so does not depend on how a file was written.
 pub(super) const ROUNDING: f64 = 1e-6;
@@ -48,9 +52,10 @@ fn kinks(edge: &BrepEdge) -> Vec<f64> {
         let polyline = c.degree == 1 && matches!(edge.curve, Curve::Nurbs(_));
         // A knot as often as the degree joins two pieces by position only.
         let joints = c.knots.windows(c.degree).filter(|w| w[0] == w[c.degree - 1]).map(|w| w[0]);
-        for k in joints.filter(|&k| k > a && k < b) {
+        let end = AT_END * (b - a);
+        for k in joints.filter(|&k| k < b - end) {
             let last = kinks[kinks.len() - 1];
-            if k > last && (polyline || turns(&edge.curve, k, b - a)) {
+            if k > last + end && (polyline || turns(&edge.curve, k, b - a)) {
                 kinks.push(k);
             }
         }
@@ -170,6 +175,17 @@ mod tests {
         let points = vec![DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.1, 0.0)];
         let e = edge(1, vec![0., 0., 0.3, 1., 1.], points, vec![], [0, 1]);
         assert!(parameters(&e, &sampling(5.0, 1.0)).unwrap().contains(&0.3));
+    }
+
+    #[test]
+    fn a_knot_that_rounding_parts_from_an_end_is_no_second_vertex() {
+        // A folded face came apart where the end of a cut was 1e-16 beyond the knot it was made at.
+        let points = vec![DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.1, 0.0)];
+        for range in [[0.3 - 1e-16, 1.0], [0.3 - 1e-13, 1.0], [0.0, 0.3 + 1e-13]] {
+            let e = edge(1, vec![0., 0., 0.3, 1., 1.], points.clone(), vec![], [0, 1]);
+            let t = parameters(&BrepEdge { range, ..e }, &sampling(5.0, 1.0)).unwrap();
+            assert!(t.windows(2).all(|w| w[1] - w[0] > 1e-3), "{t:?}");
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! own; then all are turned to the same side and joined.
 
 use super::brep::{Brep, BrepFace};
+use super::carrier::NONE;
 use super::model::Sampling;
 use super::orient::{self, Wing};
 use super::origin::Origin;
@@ -23,10 +24,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// More triangles than this are not made.
 const MOST_TRIANGLES: f64 = 8e6;
 
-/// Nodes of one face at most: some for its bends, some for each square of the longest edge in its area. A flat
-/// face has 2.3 to a square, a sphere of 17 squares twice that.
+/// Nodes of one face at most: its share of some for the bends of the whole model, and some for each square of the
+/// longest edge in its area. A flat face has 2.3 to a square, a sphere of 17 squares twice that. With more for bends,
+/// waves shorter than a member cost seconds that no grid gains from; with fewer, they are drawn too coarsely.
 const NODES_FOR_BENDS: f64 = 20_000.0;
 const NODES_TO_A_SQUARE: f64 = 8.0;
+/// As many are left to each face of a model of many.
+const LEAST_FOR_BENDS: f64 = 1_000.0;
 /// What the chord error is eased by where a crumpled face would have more.
 const EASED: f64 = 4.0;
 /// Eased so often, the spacing no longer depends on bends.
@@ -65,7 +69,7 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Surface
         .par_iter()
         .enumerate()
         .map(|(i, face)| {
-            let made = piece(face, &edges, sampling, job);
+            let made = piece(face, brep.faces.len(), &edges, sampling, job);
             // What was broken off tells nothing of the face.
             job.check(PREPARING)?;
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
@@ -116,7 +120,7 @@ pub fn tessellate(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Surface
     job.check(PREPARING)?;
     let carrier = order.carrier(&points, &triangles, &patch, &uv);
     job.check(PREPARING)?;
-    let tracks = tracks(&polylines, &order.points);
+    let tracks = tracks(brep, &polylines, &order.points);
     let curve_of = |a: u32, b: u32| tracks.curve_of(a, b);
     let mut loops = chain::boundary_loops(&carrier, PI, curve_of);
     for l in &mut loops {
@@ -191,9 +195,10 @@ fn too_fine() -> Error {
     )
 }
 
-/// Mesh one face.
+/// Mesh one face of so many.
 fn piece(
     face: &BrepFace,
+    faces: usize,
     edges: &Edges,
     sampling: &Sampling,
     job: &Job,
@@ -217,7 +222,8 @@ fn piece(
         rims.extend((0..n).map(|i| [from + i, from + (i + 1) % n]));
         from += n;
     }
-    let most = most_nodes(shape, [lo, hi], &loops, sampling);
+    let bends = (NODES_FOR_BENDS / faces as f64).max(LEAST_FOR_BENDS);
+    let most = most_nodes(shape, [lo, hi], &loops, bends, sampling);
     let (mut eased, mut looks) = (*sampling, fill::LOOKS + fill::LOOKS_TO_A_NODE * most);
     let inside = (0..MOST_EASINGS).find_map(|_| {
         let inside = fill::inside(shape, &loops, &eased, most, looks, job);
@@ -276,12 +282,13 @@ fn most_nodes(
     shape: &Shape,
     [lo, hi]: [DVec2; 2],
     loops: &[Vec<Node>],
+    bends: f64,
     sampling: &Sampling,
 ) -> usize {
     let rim: usize = loops.iter().map(Vec::len).sum();
     let area = stretch::mean_area(shape, lo, hi) * 0.5 * polygon_area(loops, DVec2::ONE);
     let squares = area / (sampling.max_edge * sampling.max_edge);
-    4 * rim + (NODES_FOR_BENDS + NODES_TO_A_SQUARE * squares) as usize
+    4 * rim + (bends + NODES_TO_A_SQUARE * squares) as usize
 }
 
 /// Triangulate the nodes. Nodes that pinch the surface at a pole are left out, and all is done again.
@@ -330,13 +337,20 @@ fn polygon_area(loops: &[Vec<Node>], scale: DVec2) -> f64 {
     loops.iter().map(one).sum()
 }
 
-/// All carrier edges that lie on model edges.
-fn tracks(polylines: &[Polyline], number: &[u32]) -> Tracks {
+/// All carrier edges that lie on the edges of faces: what was left over when faces were parted bounds no triangle.
+fn tracks(brep: &Brep, polylines: &[Polyline], number: &[u32]) -> Tracks {
     let mut tracks = Tracks::new();
-    for (e, line) in polylines.iter().enumerate() {
+    let mut used = vec![false; polylines.len()];
+    brep.faces
+        .iter()
+        .flat_map(|f| f.loops.iter().flatten())
+        .for_each(|c| used[c.edge as usize] = true);
+    for (e, line) in polylines.iter().enumerate().filter(|(e, _)| used[*e]) {
         for k in 1..line.t.len() {
             let [a, b] = [k - 1, k].map(|i| number[line.vertices[i] as usize]);
-            tracks.lay(a, b, Track::of_curve(e as u32, [line.t[k - 1], line.t[k]]));
+            if a != NONE && b != NONE {
+                tracks.lay(a, b, Track::of_curve(e as u32, [line.t[k - 1], line.t[k]]));
+            }
         }
     }
     tracks

@@ -100,6 +100,23 @@ fn a_gable_in_one_face_has_its_ridge_as_a_crease() {
 }
 
 #[test]
+fn an_edge_that_bounds_no_face_is_not_followed() {
+    // Cuts leave such edges over; the box of the surface was then looked for at a vertex that does not exist.
+    let mut brep = whole(extruded(&[(0.0, 0.0), (4.0, 3.0), (8.0, 0.0)], 10.0));
+    let stray = brep.vertices.len() as u32;
+    brep.vertices.extend([DVec3::new(0.0, 0.0, 50.0), DVec3::new(1.0, 0.0, 50.0)]);
+    let line = NurbsCurve::new(1, knots(1, 1), brep.vertices.clone(), vec![]).unwrap();
+    brep.edges.push(BrepEdge {
+        curve: Curve::Nurbs(line),
+        range: [0.0, 1.0],
+        ends: [stray, stray + 1],
+    });
+    let (_, surface) = laid(brep);
+    let [low, high] = surface.extent();
+    assert!(low.length() < 1e-9 && high.distance(DVec3::new(8.0, 10.0, 3.0)) < 1e-9, "{high}");
+}
+
+#[test]
 fn folded_plates_in_both_directions_meet_in_points() {
     let roof = net(4, 3, |i, j| 0.6 * (i % 2 + j % 2) as f64);
     let (brep, surface) = laid(whole(roof));
