@@ -34,11 +34,13 @@ mod redirect;
 mod scene;
 mod server;
 mod session;
+mod tab;
 mod told;
 
 pub use export::{Report, Reported};
 pub use redirect::Redirect;
 pub use server::Log;
+pub use tab::Tab;
 
 use desk::Desk;
 use guard::Guard;

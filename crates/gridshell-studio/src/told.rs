@@ -6,6 +6,7 @@ use gridshell::inspect::Inspection;
 use gridshell::pipeline;
 use gridshell::run::PartSummary;
 use gridshell::surface::{Surface, builtin};
+use gridshell::words::counted;
 
 /// Extensions of the files that can be opened.
 pub const ACCEPTS: [&str; 13] = [
@@ -122,9 +123,4 @@ pub fn info(inspection: &Inspection, sketch: &Surface, built_in: bool) -> Surfac
         edge_length,
         bounds: [surface.bounds.min, surface.bounds.max],
     }
-}
-
-/// A number of things.
-fn counted(n: usize, thing: &str) -> String {
-    format!("{n} {thing}{}", if n == 1 { "" } else { "s" })
 }

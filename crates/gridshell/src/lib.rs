@@ -45,6 +45,7 @@ pub mod stages;
 pub mod structure;
 pub mod surface;
 pub mod validity;
+pub mod words;
 
 pub use error::{Error, Result};
 pub use glam::{DVec2, DVec3};

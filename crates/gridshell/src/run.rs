@@ -10,6 +10,7 @@ use crate::schedule::{Figures, Schedule};
 use crate::stages::measure::{Border, IrregularNode, Quality};
 use crate::surface::{Loss, Model, Origin, Sewing, Smoothing, Surface};
 use crate::validity::{self, Fault};
+use crate::words;
 use glam::DVec3;
 use serde::Serialize;
 
@@ -154,17 +155,16 @@ impl PartSummary {
 
     /// As a line of a list.
     pub fn told(&self) -> String {
-        let plural = |n: usize| if n == 1 { "" } else { "s" };
-        let (faces, loops) = (self.faces, self.loops);
-        let mut text = format!("{}: {faces} face{}, ", self.number, plural(faces));
+        let [faces, loops] =
+            [(self.faces, "face"), (self.loops, "loop")].map(|(n, s)| words::counted(n, s));
+        let mut text = format!("{}: {faces}, ", self.number);
         if let Some(fault) = &self.fault {
             text += &format!("no surface: {fault}");
         } else {
             let [x, y, z] =
                 [0, 1, 2].map(|k| f64::midpoint(self.bounds.min[k], self.bounds.max[k]));
-            let (area, s) = (self.area, plural(loops));
-            let area = at_least(3, area);
-            text += &format!("{area} m2, {loops} loop{s}, about ({x:.2}, {y:.2}, {z:.2})");
+            let area = at_least(3, self.area);
+            text += &format!("{area} m2, {loops}, about ({x:.2}, {y:.2}, {z:.2})");
         }
         if !self.objects.is_empty() {
             text += &format!(", {}", self.objects.join(", "));

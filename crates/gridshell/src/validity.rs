@@ -10,6 +10,7 @@ use crate::merit;
 use crate::stages::measure::{Quality, bridges, is_folded};
 pub use crate::surface::NEAREST;
 use crate::surface::{Chain, Surface};
+use crate::words::counted;
 use glam::DVec3;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
@@ -81,17 +82,15 @@ pub struct Validity {
 impl Kind {
     /// `n` of them, in words.
     fn counted(self, n: usize) -> String {
-        let s = if n == 1 { "" } else { "s" };
+        let with = |noun: &str, rest: &str| format!("{}{rest}", counted(n, noun));
         match self {
-            Kind::Near => format!("{n} pair{s} of nodes at nearly one place"),
-            Kind::Folded => format!("{n} folded panel{s}"),
-            Kind::Flat => format!("{n} panel{s} without area"),
-            Kind::Bridging => format!("{n} bridging member{s}"),
-            Kind::OffSurface => format!("{n} node{s} off the surface"),
-            Kind::OffBoundary => format!("{n} node{s} off the border"),
-            Kind::Manifold | Kind::Topology | Kind::Area => {
-                format!("{n} fault{s} of the whole grid")
-            }
+            Kind::Near => with("pair", " of nodes at nearly one place"),
+            Kind::Folded => with("folded panel", ""),
+            Kind::Flat => with("panel", " without area"),
+            Kind::Bridging => with("bridging member", ""),
+            Kind::OffSurface => with("node", " off the surface"),
+            Kind::OffBoundary => with("node", " off the border"),
+            Kind::Manifold | Kind::Topology | Kind::Area => with("fault", " of the whole grid"),
         }
     }
 }

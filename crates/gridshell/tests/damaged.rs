@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folders whose files hold no surface.
-const OTHER: [&str; 5] = ["lines", "values", "recipe", "native", "edits"];
+const OTHER: [&str; 6] = ["lines", "values", "recipe", "native", "edits", "messages"];
 
 /// The files of one of the fuzz folders that hold surfaces.
 fn files(folder: &str) -> Vec<PathBuf> {

@@ -127,6 +127,16 @@ impl Desk {
         going.chain(work).chain(&state.opening).for_each(Job::cancel);
     }
 
+    /// Whether a run goes on.
+    pub fn is_busy(&self) -> bool {
+        self.state().going.is_some()
+    }
+
+    /// The number of the grid that came last.
+    pub fn newest(&self) -> Option<u32> {
+        self.state().runs.last().map(|run| run.number)
+    }
+
     /// Begin something that may take a while: told of when it does, until it is dropped.
     fn begin(self: &Arc<Self>, run: u32, what: &str) -> Result<Work> {
         let job = self.job();

@@ -2,6 +2,7 @@
 
 use super::weld::{Work, bounds, place};
 use crate::surface::Loss;
+use crate::words;
 use glam::DVec3;
 
 /// A piece is small below this share of the largest one's area.
@@ -45,7 +46,7 @@ pub(super) fn drop_far(work: &mut Work) {
         .filter(|(g, _)| **g)
         .fold((0, 0.0), |(n, area), (_, face)| (n + 1, area + work.area(face)));
     work.losses.push(Loss {
-        what: format!("{} small piece{}", told.len(), if told.len() == 1 { "" } else { "s" }),
+        what: words::counted(told.len(), "small piece"),
         why: format!(
             "far from the rest, so taken for leftovers of the drawing: {first}{more}; export them to a file of their own \
              if they are meant"

@@ -153,7 +153,8 @@ pub fn load(path: &Path, opening: &Opening, job: &Job) -> Result<Model> {
 fn odd_size(size: f64) -> Option<String> {
     (!(LEAST_SIZE..=MOST_SIZE).contains(&size)).then(|| {
         format!(
-            "the model is {size:.3e} m across; if it should not be, say in which unit its lengths are (--units)"
+            "the model is {} m across; if it should not be, say in which unit its lengths are (--units)",
+            crate::math::digits::three(size)
         )
     })
 }

@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::io::WRITING;
 use crate::job::Job;
 use crate::surface::Loss;
+use crate::words;
 use glam::DVec3;
 use std::collections::HashSet;
 use std::fmt::Write;
@@ -57,21 +58,14 @@ pub(super) fn read(path: &Path, job: &Job) -> Result<Soup> {
     }
     let stray = stray_lines(&soup.faces, &lines);
     let loose = loose_points(&soup.faces, dots);
-    let one_or_more =
-        |n: usize, one: &'static str, more: &'static str| if n == 1 { one } else { more };
-    let what =
-        one_or_more(stray, "line that is no edge of a face", "lines that are no edges of faces");
-    soup.note_count(stray, "skipped", what);
-    let what = one_or_more(
-        loose,
-        "point that is no corner of a face",
-        "points that are no corners of faces",
-    );
-    soup.note_count(loose, "skipped", what);
-    soup.note_count(curves, "skipped", one_or_more(curves, "curve", "curves"));
+    let lines = ["line that is no edge of a face", "lines that are no edges of faces"];
+    soup.note_count(stray, "skipped", lines);
+    let points = ["point that is no corner of a face", "points that are no corners of faces"];
+    soup.note_count(loose, "skipped", points);
+    soup.note_count(curves, "skipped", ["curve", "curves"]);
     if curved > 0 {
         soup.losses.push(Loss {
-            what: format!("{curved} curved surface{}", if curved == 1 { "" } else { "s" }),
+            what: words::counted(curved, "curved surface"),
             why: "only meshes are read from OBJ; export the surface as a mesh, or as STEP"
                 .to_owned(),
             faces: curved,

@@ -3,6 +3,7 @@
 
 use super::LengthUnit;
 use crate::surface::Loss;
+use crate::words;
 use glam::DVec3;
 
 /// A soup of faces in the file's own unit.
@@ -36,9 +37,9 @@ pub(super) enum Digits {
 
 impl Soup {
     /// Note what was passed over, if anything was.
-    pub fn note_count(&mut self, count: usize, verb: &str, what: &str) {
+    pub fn note_count(&mut self, count: usize, verb: &str, what: [&str; 2]) {
         if count > 0 {
-            self.notes.push(format!("{verb} {count} {what}"));
+            self.notes.push(format!("{verb} {}", words::one_or_more(count, what)));
         }
     }
 }

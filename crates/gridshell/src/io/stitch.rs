@@ -57,5 +57,12 @@ pub(super) fn stitch(work: &mut Work, tolerance: f64) {
         face.extend(taken);
         face.extend(rest);
     }
-    work.note_count(found.len(), "joined", "vertices to the edges of other faces that they lie on");
+    work.note_count(
+        found.len(),
+        "joined",
+        [
+            "vertex to the edge of another face that it lies on",
+            "vertices to the edges of other faces that they lie on",
+        ],
+    );
 }

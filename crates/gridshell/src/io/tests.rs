@@ -355,7 +355,7 @@ fn repeated_degenerate_and_unused_parts_go_and_touching_fans_part() {
                 f 2 3 4\nf 3 4 2\nf 2 2 3\nf 4 7 4\nf 2 5 6\n";
     let mesh = Scratch::new("mixed.obj", text).read().expect("a mesh");
     assert_eq!((mesh.points.len(), mesh.faces.len()), (6, 2), "{:?}", mesh.notes);
-    for told in ["merged 1", "2 degenerate", "1 repeated", "2 separate", "parted 1"] {
+    for told in ["merged 1", "2 degenerate", "1 repeated", "2 separate", "split 1"] {
         assert!(mesh.notes.iter().any(|n| n.contains(told)), "{told}: {:?}", mesh.notes);
     }
 }

@@ -68,7 +68,13 @@ pub(super) fn drop_thin(work: &mut Work, tolerance: f64) {
         }
         work.faces[f] = face;
     }
-    work.drop_noted(&thin, "faces without width (their corners lie on a line)");
+    work.drop_noted(
+        &thin,
+        [
+            "face without width (its corners lie on a line)",
+            "faces without width (their corners lie on a line)",
+        ],
+    );
 }
 
 /// Whether the corners lie on a line.

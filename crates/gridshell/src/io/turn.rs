@@ -37,7 +37,11 @@ pub(super) fn alike(path: &Path, work: &mut Work, neighbors: &[Vec<(u32, bool)>]
             }
         }
     }
-    work.note_count(turned, "turned", "faces to agree with their neighbours");
+    work.note_count(
+        turned,
+        "turned",
+        ["face to agree with its neighbours", "faces to agree with their neighbours"],
+    );
     if pieces > 1 {
         work.notes.push(format!(
             "the mesh has {pieces} separate pieces: those that should join may be sewn (--sew TOL)"

@@ -11,6 +11,7 @@ use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::surface::nurbs::FARTHEST;
 use crate::surface::{Loss, PolygonMesh, Source, ear};
+use crate::words;
 use glam::DVec3;
 use std::collections::HashSet;
 use std::path::Path;
@@ -60,7 +61,7 @@ pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening, job: &Job) -> Res
     merge::close(&mut work, tolerance);
     job.check(READING)?;
     let merged = work.merged;
-    work.note_count(merged, "merged", "duplicate vertices");
+    work.note_count(merged, "merged", ["duplicate vertex", "duplicate vertices"]);
     drop_degenerate(&mut work);
     if work.faces.is_empty() {
         return Err(Error::Surface(no_faces(path, work.points.len())));
@@ -176,18 +177,20 @@ impl Work {
         });
     }
 
-    pub fn note_count(&mut self, count: usize, verb: &str, what: &str) {
+    pub fn note_count(&mut self, count: usize, verb: &str, what: [&str; 2]) {
         if count > 0 {
-            self.notes.push(format!("{verb} {count} {what}"));
+            self.notes.push(format!("{verb} {}", words::one_or_more(count, what)));
         }
     }
 
     /// As [`Work::drop_faces`], with a note that tells the first.
-    pub fn drop_noted(&mut self, gone: &[bool], what: &str) {
+    pub fn drop_noted(&mut self, gone: &[bool], what: [&str; 2]) {
         let Some(first) = gone.iter().position(|&g| g) else { return };
         let count = gone.iter().filter(|&&g| g).count();
         let number = self.number(first as u32);
-        self.notes.push(format!("dropped {count} {what}, the first is face {number}"));
+        let first = if count == 1 { "" } else { "the first is " };
+        let dropped = words::one_or_more(count, what);
+        self.notes.push(format!("left out {dropped}: {first}face {number}"));
         self.drop_faces(gone);
     }
 }
@@ -258,10 +261,14 @@ fn drop_degenerate(work: &mut Work) {
             work.faces.push(face);
             work.origin.push(origin);
         }
-        work.note_count(slit, "split", "faces that visit a corner twice");
+        work.note_count(
+            slit,
+            "split",
+            ["face that visits a corner twice", "faces that visit a corner twice"],
+        );
     }
     let gone: Vec<bool> = work.faces.iter().map(|f| f.len() < 3 || repeats(f)).collect();
-    work.drop_noted(&gone, "degenerate faces");
+    work.drop_noted(&gone, ["degenerate face", "degenerate faces"]);
     let mut seen: HashSet<Vec<u32>> = HashSet::with_capacity(work.faces.len());
     let gone: Vec<bool> = (work.faces.iter())
         .map(|face| {
@@ -271,7 +278,7 @@ fn drop_degenerate(work: &mut Work) {
         })
         .collect();
     drop(seen);
-    work.drop_noted(&gone, "repeated faces");
+    work.drop_noted(&gone, ["repeated face", "repeated faces"]);
 }
 
 /// Whether a corner comes twice.
@@ -352,7 +359,14 @@ fn part_at_vertices(work: &mut Work) {
             parted += 1;
         }
     }
-    work.note_count(parted, "parted", "places where the surface touched itself in one vertex");
+    work.note_count(
+        parted,
+        "split",
+        [
+            "vertex at which the surface touched itself",
+            "vertices at which the surface touched itself",
+        ],
+    );
 }
 
 /// The faces round a vertex in fans whose faces share edges: the next corner of one is the previous of another.

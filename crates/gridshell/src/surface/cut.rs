@@ -8,6 +8,7 @@ use super::locate::nearest_in_triangle;
 use super::track::Tracks;
 use super::{Carrier, NEAREST, Shape, Surface, SurfacePoint};
 use crate::error::{Error, Result};
+use crate::math::digits::three;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -97,8 +98,9 @@ impl<'a> Cutter<'a> {
                 told()
             )));
         }
-        let note = (off > SAME * self.length)
-            .then(|| format!("{} is {off:.3e} m off the surface and was moved onto it", told()));
+        let note = (off > SAME * self.length).then(|| {
+            format!("{} is {} m off the surface and was moved onto it", told(), three(off))
+        });
         Ok((vertex, note))
     }
 

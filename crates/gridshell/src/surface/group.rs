@@ -7,7 +7,7 @@
 
 use super::bow::Bows;
 use super::motion::unit;
-use super::{Locator, Motion, Surface};
+use super::{Chain, Locator, Motion, Surface};
 use crate::job::Job;
 use crate::math::trig;
 use glam::{DVec2, DVec3};
@@ -23,6 +23,12 @@ const FIT_STEPS: usize = 8;
 const FIT_POINTS: usize = 300;
 /// Points of the surface that are looked at before a symmetry is believed.
 const CHECK_POINTS: usize = 20_000;
+
+/// A cut that leaves the border at less than the angle of this sine (30 degrees) leaves a corner that no good triangle
+/// fits into; beyond, the farthest corner is as good as any.
+const BLUNT: f64 = 0.5;
+/// Sines that differ by less are of corners that are alike.
+const ALIKE: f64 = 1e-3;
 
 /// What polls are counted under.
 const PHASE: &str = "looking for symmetries";
@@ -193,13 +199,13 @@ impl<'a> Symmetries<'a> {
         }
     }
 
-    /// Direction of the cut that parts a surface into `group.turns` alike: through the farthest corner, or along
-    /// a mirror plane, or across the longest direction.
+    /// Direction of the cut that parts a surface into `group.turns` alike: through the farthest corner, or another
+    /// where that is a sharp one, or along a mirror plane, or across the longest direction.
     pub fn cut(&self, group: &Group) -> DVec2 {
         if let Some(along) = group.mirror {
             return along;
         }
-        let corner = self.farthest_corner(group.centre).filter(|_| group.turns > 2);
+        let corner = self.blunt_corner(group.centre).filter(|_| group.turns > 2);
         corner.or_else(|| self.mirrors_at(group.centre, group.turns)).unwrap_or(self.longest.perp())
     }
 
@@ -218,12 +224,54 @@ impl<'a> Symmetries<'a> {
 
     /// Direction of the corner of a loop that is farthest from the axis.
     fn farthest_corner(&self, centre: DVec2) -> Option<DVec2> {
-        let carrier = &self.surface.carrier;
-        let corners = self.surface.loops.iter().flat_map(|l| {
-            l.corners.iter().map(|&k| carrier.points[l.vertices[k as usize] as usize])
-        });
-        let off = corners.map(|p| p.truncate() - centre);
+        let off = self.corners(centre);
         off.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?.try_normalize()
+    }
+
+    /// Direction of the farthest corner, or, where the border there is too sharp for a cut, of the corner where the cut
+    /// meets the border the most squarely.
+    fn blunt_corner(&self, centre: DVec2) -> Option<DVec2> {
+        let farthest = self.farthest_corner(centre)?;
+        let of_farthest = self.squareness(centre, farthest);
+        if of_farthest >= BLUNT {
+            return Some(farthest);
+        }
+        let others = self.corners(centre).filter_map(DVec2::try_normalize);
+        let first = (of_farthest, farthest);
+        let best = others.map(|along| (self.squareness(centre, along), along)).fold(
+            first,
+            // Of corners that are alike but for rounding the first.
+            |best, other| if other.0 > best.0 + ALIKE { other } else { best },
+        );
+        Some(best.1)
+    }
+
+    /// Corners of all loops, seen from the axis in plan.
+    fn corners(&self, centre: DVec2) -> impl Iterator<Item = DVec2> + '_ {
+        let points = &self.surface.carrier.points;
+        let of_loop =
+            |l: &'_ Chain| l.corners.iter().map(|&k| l.vertices[k as usize]).collect::<Vec<_>>();
+        let all = self.surface.loops.iter().flat_map(of_loop);
+        all.map(move |v| points[v as usize].truncate() - centre)
+    }
+
+    /// The sine of the sharpest angle, in plan, between a ray from the axis and the border where they meet.
+    fn squareness(&self, centre: DVec2, along: DVec2) -> f64 {
+        let points = &self.surface.carrier.points;
+        let mut least = 1.0_f64;
+        for l in &self.surface.loops {
+            let n = l.vertices.len();
+            for k in 0..n {
+                let [a, b] =
+                    [k, (k + 1) % n].map(|k| points[l.vertices[k] as usize].truncate() - centre);
+                let off = [along.perp_dot(a), along.perp_dot(b)];
+                let meets = off[0] * off[1] <= 0.0 || off.iter().any(|o| o.abs() <= self.tolerance);
+                if meets && along.dot(a + b) > 0.0 && a.distance(b) > 0.0 {
+                    least = least.min((off[1] - off[0]).abs() / a.distance(b));
+                }
+            }
+        }
+        least
     }
 
     /// Whether the vertical axis through `centre` meets the surface.

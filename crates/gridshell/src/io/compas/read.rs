@@ -228,7 +228,14 @@ fn soup(path: &Path, mesh: &Json) -> Result<Soup> {
             soup.faces.push(face);
         }
     }
-    soup.note_count(skipped, "left out", "faces marked as not loaded: they stand for openings");
+    soup.note_count(
+        skipped,
+        "left out",
+        [
+            "face marked as not loaded: it stands for an opening",
+            "faces marked as not loaded: they stand for openings",
+        ],
+    );
     Ok(soup)
 }
 

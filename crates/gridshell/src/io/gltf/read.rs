@@ -59,9 +59,20 @@ pub(in crate::io) fn read(path: &Path, job: &Job) -> Result<Soup> {
     let mut soup = reading.soup;
     // Members and marks of a grid that was written here say nothing new.
     if !document.asset.generator.starts_with(OURS) {
-        soup.note_count(reading.passed, "skipped", "primitives of points or lines");
+        soup.note_count(
+            reading.passed,
+            "skipped",
+            ["primitive of points or lines", "primitives of points or lines"],
+        );
     }
-    soup.note_count(hidden, "left out", "hidden nodes; show them before exporting to read them");
+    soup.note_count(
+        hidden,
+        "left out",
+        [
+            "hidden node; show it before exporting to read it",
+            "hidden nodes; show them before exporting to read them",
+        ],
+    );
     let known = |e: &&String| {
         UNDERSTOOD.contains(&e.as_str()) || LOOKS.iter().any(|looks| e.starts_with(looks))
     };

@@ -7,6 +7,7 @@ use super::surfaces::is_surface;
 use super::{Fault, File, MOST_FACES, MOST_LEVELS, PLACING, trimmed};
 use crate::surface::Loss;
 use crate::surface::brep::Brep;
+use crate::words;
 use glam::{DAffine3, DVec3};
 use std::collections::BTreeSet;
 
@@ -34,13 +35,13 @@ impl File<'_> {
         }
         if blank > 0 {
             self.note(format!(
-                "{blank} hidden (blanked) surface(s) or shell(s) left out; show them in the program that wrote the file to read \
-                 them"
+                "left out {}; show what is meant in the program that wrote the file",
+                words::one_or_more(blank, ["hidden (blanked) entity", "hidden (blanked) entities"])
             ));
         }
         if orphans > 0 {
             self.losses.borrow_mut().push(Loss {
-                what: format!("{orphans} surface(s)"),
+                what: words::counted(orphans, "surface"),
                 why: "they are parts of entities that are not read; export them as surfaces of their own".into(),
                 faces: orphans,
                 area: None,

@@ -5,6 +5,7 @@ use super::split::{Pieces, Union};
 use crate::math::digits::three;
 use crate::surface::brep::{BrepEdge, Coedge};
 use crate::surface::{Brep, Loss, Origin};
+use crate::words;
 use glam::DVec3;
 
 /// An edge whose ends became one place and that is no longer than so many tolerances is no edge any more.
@@ -195,11 +196,20 @@ fn clean(brep: &mut Brep, pairs: &Pairs, tolerance: f64) -> Lost {
     lost
 }
 
+/// Faces by their numbers.
+fn named(faces: &[u32]) -> String {
+    format!("{} {}", if faces.len() == 1 { "face" } else { "faces" }, list(faces))
+}
+
+fn it_or_them(n: usize) -> &'static str {
+    if n == 1 { "it" } else { "them" }
+}
+
 impl Lost {
     /// Faces that went, where some did.
     pub fn loss(&self, tolerance: f64) -> Option<Loss> {
         (!self.faces.is_empty()).then(|| Loss {
-            what: format!("face(s) {}", list(&self.faces)),
+            what: named(&self.faces),
             why: format!(
                 "smaller than the sewing tolerance of {} m; a smaller one (--sew) keeps them",
                 three(tolerance)
@@ -215,30 +225,32 @@ impl Lost {
         let mut told = Vec::new();
         if self.edges > 0 {
             told.push(format!(
-                "{} edge(s) shorter than the sewing tolerance of {} m became points; a smaller one keeps \
-                 them",
-                self.edges,
-                three(tolerance)
+                "{} shorter than the sewing tolerance of {} m became {}; a smaller one keeps {}",
+                words::counted(self.edges, "edge"),
+                three(tolerance),
+                if self.edges == 1 { "a point" } else { "points" },
+                it_or_them(self.edges)
             ));
         }
         if self.openings > 0 {
             told.push(format!(
-                "{} opening(s) smaller than the sewing tolerance of {} m were closed; a smaller one \
-                 keeps them",
-                self.openings,
-                three(tolerance)
+                "closed {} smaller than the sewing tolerance of {} m; a smaller one keeps {}",
+                words::counted(self.openings, "opening"),
+                three(tolerance),
+                it_or_them(self.openings)
             ));
         }
         if !pairs.twins.is_empty() {
             let numbers: Vec<u32> = pairs.twins.iter().map(|f| f + 1).collect();
-            told.push(format!("face(s) {} lie on others and are left out", list(&numbers)));
+            let lies = if numbers.len() == 1 { "lies on another" } else { "lie on others" };
+            told.push(format!("left out {}, which {lies}", named(&numbers)));
         }
         if let Some(&at) = pairs.crowded.first() {
             let at = origin.world(at);
             told.push(format!(
-                "{} edge(s) lie where two others are joined already, the first near ({:.4}, {:.4}, {:.4}): more than \
-                 two faces meet there, and only the two that go on most smoothly are joined",
-                pairs.crowded.len(),
+                "{} where two others are joined already, the first near ({:.4}, {:.4}, {:.4}): more than two faces meet \
+                 there, and only the two that go on most smoothly are joined",
+                words::one_or_more(pairs.crowded.len(), ["edge lies", "edges lie"]),
                 at.x,
                 at.y,
                 at.z

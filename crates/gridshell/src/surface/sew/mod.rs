@@ -18,6 +18,7 @@ use super::seam;
 use crate::error::{Error, Result};
 use crate::job::{Job, Picture};
 use crate::math::digits::three;
+use crate::words;
 use naked::Naked;
 use serde::Serialize;
 
@@ -125,12 +126,12 @@ fn below_rounding(gap: f64, size: f64) -> f64 {
 
 fn joined(sewing: &Sewing, brep: &Brep) -> String {
     let from = if sewing.tolerance == brep.tolerance { " of the file" } else { "" };
-    let (n, s) = (sewing.joints, plural(sewing.joints));
+    let joints = words::counted(sewing.joints, "joint");
     if sewing.largest_gap == 0.0 {
-        return format!("sewn: {n} joint{s} between faces whose edges coincide");
+        return format!("sewn: {joints} between faces whose edges coincide");
     }
     format!(
-        "sewn: {n} joint{s} between faces without common edges, the largest gap {} m, at the tolerance{from} of {} m",
+        "sewn: {joints} between faces without common edges, the largest gap {} m, at the tolerance{from} of {} m",
         three(sewing.largest_gap),
         three(sewing.tolerance)
     )
@@ -138,21 +139,16 @@ fn joined(sewing: &Sewing, brep: &Brep) -> String {
 
 fn left(sewing: &Sewing) -> String {
     format!(
-        "not sewn: {} edge{} of {} m together still face{} another up to {} m away, further than the tolerance \
+        "not sewn: {} of {} m together still face{} another up to {} m away, further than the tolerance \
          of {} m; if they are to be joined, sew with {} m, but a tolerance also closes every slit and \
          swallows every edge and face narrower than itself",
-        sewing.facing,
-        plural(sewing.facing),
+        words::counted(sewing.facing, "edge"),
         three(sewing.facing_length),
         if sewing.facing == 1 { "s" } else { "" },
         three(sewing.facing_gap),
         three(sewing.tolerance),
         three(1.1 * sewing.facing_gap)
     )
-}
-
-fn plural(n: usize) -> &'static str {
-    if n == 1 { "" } else { "s" }
 }
 
 #[cfg(test)]

@@ -122,7 +122,7 @@ fn a_face_given_twice_counts_once() {
     ];
     let brep = sewn(faces, None);
     assert_eq!(brep.faces.len(), 2);
-    assert!(brep.notes.iter().any(|n| n.contains("lie on others")), "{:?}", brep.notes);
+    assert!(brep.notes.iter().any(|n| n.contains("which lies on another")), "{:?}", brep.notes);
     assert!((surface(&brep).area - 3.0).abs() < 1e-12);
 }
 
