@@ -24,9 +24,9 @@ const FIT_POINTS: usize = 300;
 /// Points of the surface that are looked at before a symmetry is believed.
 const CHECK_POINTS: usize = 20_000;
 
-/// A cut that leaves the border at less than the angle of this sine (30 degrees) leaves a corner that no good triangle
-/// fits into; beyond, the farthest corner is as good as any.
-const BLUNT: f64 = 0.5;
+/// A cut that leaves the border at less than the angle of this sine (53 degrees) leaves corners that no good triangle
+/// fits into, and is made elsewhere if it can; beyond, the farthest corner is as good as any.
+const BLUNT: f64 = 0.8;
 /// Sines that differ by less are of corners that are alike.
 const ALIKE: f64 = 1e-3;
 
