@@ -30,6 +30,9 @@ const SHARP: f64 = 0.35;
 const AROUND: f64 = 2.0;
 /// Nodes on two borders no farther apart than this, over l0, are at one place.
 const TOUCHING: f64 = 1e-6;
+/// Pairs of near nodes on sheets that face the same way for which the way between them is looked for. Each look may
+/// cross thousands of triangles; a grid with more such pairs is none, whatever the surface is like.
+const MOST_WALKS: usize = 32;
 /// Faults and remarks beyond this many are only counted.
 const MOST_TOLD: usize = 8;
 
@@ -160,10 +163,11 @@ impl Validity {
     }
 
     fn near(&mut self, grid: &Grid, surface: &Surface, length: f64) {
+        let mut walks = MOST_WALKS;
         for Pair { nodes: [a, b], apart } in near_pairs(grid, surface, length) {
             let at = grid.xyz[a as usize].midpoint(grid.xyz[b as usize]);
             let pair = format!("nodes {a} and {b} are {} apart", metres(apart));
-            match demand(grid, surface, length, [a, b], apart) {
+            match demand(grid, surface, length, [a, b], apart, &mut walks) {
                 None => self.faults.push(fault(Kind::Near, at, &[a, b], pair)),
                 Some(why) => {
                     let message = format!("{pair}, as {why}");
@@ -300,6 +304,7 @@ fn demand(
     length: f64,
     [a, b]: [u32; 2],
     apart: f64,
+    walks: &mut usize,
 ) -> Option<&'static str> {
     let (p, q) = (&grid.places[a as usize], &grid.places[b as usize]);
     let fixed = p.is_fixed() && q.is_fixed();
@@ -321,12 +326,18 @@ fn demand(
     }
     let beside =
         grid.mesh.adjacent(a, b) || grid.mesh.ring(a).iter().any(|&c| grid.mesh.adjacent(c, b));
+    if beside {
+        return None;
+    }
     let [m, n] = [p, q].map(|place| place.normal(surface));
-    let (s, t) = (p.surface_point(surface), q.surface_point(surface));
-    let walked = surface.carrier.follow(&s, grid.xyz[b as usize]);
-    let arrives = surface.carrier.xyz(&walked).distance(surface.carrier.xyz(&t))
-        < 0.5 * apart.max(OFF * length);
-    (!beside && (!arrives || m.dot(n) < SHARP)).then_some("two sheets of the surface are that near")
+    let apart_by_sheet = m.dot(n) < SHARP || {
+        *walks = walks.checked_sub(1)?;
+        let (s, t) = (p.surface_point(surface), q.surface_point(surface));
+        let walked = surface.carrier.follow(&s, grid.xyz[b as usize]);
+        let off = surface.carrier.xyz(&walked).distance(surface.carrier.xyz(&t));
+        off >= 0.5 * apart.max(OFF * length)
+    };
+    apart_by_sheet.then_some("two sheets of the surface are that near")
 }
 
 /// The loop and arc length of a node at the border.

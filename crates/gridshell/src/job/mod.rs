@@ -12,9 +12,15 @@ mod stop;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use glam::DVec3;
+use std::panic::resume_unwind;
 use std::sync::Arc;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
 use std::time::{Duration, Instant};
 use stop::Stop;
+
+/// How often a job is polled while work goes on that does not.
+const LOOK_EVERY: Duration = Duration::from_millis(20);
 
 /// One progress message.
 pub struct Progress<'a> {
@@ -203,6 +209,36 @@ impl Job {
             memory::told(needed as u64),
             memory::told(limit)
         )))
+    }
+
+    /// Work that never polls, a decoder's say, on a thread of its own: where the job is over first, it is left behind.
+    ///
+    /// # Errors
+    /// As [`Job::check`].
+    ///
+    /// # Panics
+    /// Where the work does.
+    pub(crate) fn apart<T: Send + 'static>(
+        &self,
+        phase: &'static str,
+        work: impl FnOnce() -> T + Send + 'static,
+    ) -> Result<T> {
+        self.check(phase)?;
+        let (done, result) = mpsc::channel();
+        let worker = thread::spawn(move || {
+            // Nobody waits where the job was over first.
+            let _ = done.send(work());
+        });
+        loop {
+            match result.recv_timeout(LOOK_EVERY) {
+                Ok(made) => return Ok(made),
+                Err(RecvTimeoutError::Timeout) => self.check(phase)?,
+                Err(RecvTimeoutError::Disconnected) => {
+                    let Err(panic) = worker.join() else { unreachable!("it ended without a word") };
+                    resume_unwind(panic);
+                }
+            }
+        }
     }
 
     /// Report progress; costs nothing without a sink.

@@ -13,6 +13,23 @@ fn a_job_past_its_time_gives_up_only_after_its_patience() {
 }
 
 #[test]
+fn work_that_never_polls_is_left_behind() {
+    let job = Job::default().with_patience(Duration::ZERO);
+    let (free, waits) = std::sync::mpsc::channel::<()>();
+    let cancelled = job.clone();
+    let work = move || {
+        cancelled.cancel();
+        waits.recv()
+    };
+    assert!(matches!(job.apart("reading", work), Err(Error::Stopped { .. })));
+    drop(free);
+    let job = Job::default();
+    assert_eq!(job.apart("reading", || 7).unwrap(), 7);
+    let broken = std::panic::catch_unwind(|| job.apart("reading", || panic!("a decoder's fault")));
+    assert!(broken.is_err());
+}
+
+#[test]
 fn a_process_over_its_memory_limit_is_told_the_limit() {
     let job = Job::default().with_memory_limit(1 << 20);
     let said = job.check("sewing").expect_err("the tests hold more than this").to_string();

@@ -20,7 +20,7 @@ mod surfaces;
 mod tokens;
 mod trimmed;
 
-use super::{bezier, file};
+use super::{READING, bezier, file};
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::surface::brep::Brep;
@@ -134,7 +134,8 @@ impl File<'_> {
 pub fn read(path: &Path, job: &Job) -> Result<Brep> {
     let fault =
         |f: Fault| Error::Parse { path: path.to_path_buf(), place: f.place, message: f.what };
-    let mut brep = parse(&file::read_at_most(path, MOST_BYTES, job)?).map_err(fault)?;
+    let bytes = file::read_at_most(path, MOST_BYTES, job)?;
+    let mut brep = job.apart(READING, move || parse(&bytes))?.map_err(fault)?;
     path.file_stem().and_then(|s| s.to_str()).unwrap_or("surface").clone_into(&mut brep.name);
     Ok(brep)
 }

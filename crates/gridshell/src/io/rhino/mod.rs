@@ -35,6 +35,7 @@ use source::Layer;
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
+use std::sync::Arc;
 use table::{Kind, Row};
 
 /// What the decoder may use, over the size of the file: enough for every sound file seen, and not more memory than
@@ -56,12 +57,14 @@ pub(super) fn read(path: &Path, choice: &Choice, job: &Job) -> Result<Model> {
     job.check(READING)?;
     let version = source::version(&bytes);
     let table = table::rows(&bytes);
-    let (mut ir, mut faults) = decoded(path, &bytes)?;
+    let bytes = Arc::new(bytes);
+    let (mut ir, mut faults) = decoded(path, &bytes, job)?;
     let mut blocks = Blocks::default();
     if table.iter().any(|row| row.kind == Kind::Block) {
         blocks = Blocks::of(&ir);
         drop(ir);
-        (ir, _) = decoded(path, &table::without_blocks(bytes))?;
+        let bytes = Arc::unwrap_or_clone(bytes);
+        (ir, _) = decoded(path, &Arc::new(table::without_blocks(bytes)), job)?;
         // It finds fault with every block now.
         faults = 0;
     }
@@ -83,12 +86,14 @@ pub(super) fn read(path: &Path, choice: &Choice, job: &Job) -> Result<Model> {
 }
 
 /// What the decoder makes of a file, and how many faults of geometry it tells.
-fn decoded(path: &Path, bytes: &[u8]) -> Result<(CadIr, usize)> {
+fn decoded(path: &Path, bytes: &Arc<Vec<u8>>, job: &Job) -> Result<(CadIr, usize)> {
     let mut options = DecodeOptions::default();
     options.policy.limits.max_input_bytes = MOST_BYTES;
     options.policy.limits.max_retained_bytes = MOST_RETAINED;
     options.policy.limits.max_decompressed_bytes_total = MOST_RETAINED;
-    let decoded = RhinoCodec.decode(&mut Cursor::new(bytes), &options);
+    let bytes = Arc::clone(bytes);
+    let decode = move || RhinoCodec.decode(&mut Cursor::new(bytes.as_slice()), &options);
+    let decoded = job.apart(READING, decode)?;
     let (ir, report, _) = decoded
         .map_err(|e| fault(path, "file", format!("{e}; open it in Rhino and save it again")))?
         .into_parts();

@@ -25,7 +25,7 @@ mod trimmed;
 mod units;
 
 use super::soup::Soup;
-use super::{Opening, file, weld};
+use super::{Opening, READING, file, weld};
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::surface::{Brep, Model, PolygonMesh, Source, Unit};
@@ -52,7 +52,10 @@ enum Found {
 pub fn read(path: &Path, job: &Job) -> Result<Model> {
     let bytes = file::read_at_most(path, MOST_BYTES, job)?;
     let name = path.file_stem().and_then(|s| s.to_str()).unwrap_or("surface").to_owned();
-    match parse(bytes).map_err(|(place, what)| fault(path, &place, &what))? {
+    match job
+        .apart(READING, move || parse(bytes))?
+        .map_err(|(place, what)| fault(path, &place, &what))?
+    {
         Found::Faces(brep) => Ok(Model::Brep(Brep { name, ..brep })),
         Found::Triangles(soup, source) => {
             let mesh = weld::weld(path, soup, &Opening::default(), job)?;
