@@ -68,6 +68,7 @@ fn single(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
     job.reserve(nodes * BYTES_A_NODE, &format!("a grid of about {nodes:.0} nodes"))?;
     let make = |l: f64| model.surface(&sampling(l, nodes, recipe), job);
     let (surface, mut fixed) = wishes::surface(recipe, length, make, job)?;
+    narrow::check(&surface, length)?;
     let size = Scale { length, nodes };
     if let Some(found) = symmetry::group(&surface, model, recipe, length, job)? {
         let told = fixed.clone();

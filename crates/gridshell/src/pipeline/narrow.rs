@@ -1,7 +1,9 @@
 //! Places where the surface is narrower than a member: short loops, and members across a neck.
 
+use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::surface::{Ruler, Surface};
+use crate::surface::{Chain, NEAREST, Ruler, Surface};
+use crate::validity::metres;
 use glam::DVec3;
 
 /// Shorter than this share of l0, a member across is forced by the surface.
@@ -10,6 +12,26 @@ const SHORT: f64 = 0.7;
 const APART: f64 = 3.0;
 /// More places than this are only counted.
 const MOST: usize = 8;
+
+/// Refuse a surface that is a strip so narrow, by its area and border, that all nodes across it would be at nearly one
+/// place: as often as not one number in its file is wrong.
+///
+/// # Errors
+/// [`Error::NoGrid`] with how wide it is.
+pub fn check(surface: &Surface, length: f64) -> Result<()> {
+    let border: f64 = surface.loops.iter().map(Chain::length).sum();
+    let width = 2.0 * surface.area / border;
+    let Some(first) = surface.loops.first().filter(|_| width < NEAREST * length) else {
+        return Ok(());
+    };
+    let at = surface.origin.world(first.exact(surface, 0.0)).to_array();
+    let message = format!(
+        "the surface is a strip about {} wide, far narrower than members of {}: check its unit and coordinates",
+        metres(width),
+        metres(length)
+    );
+    Err(Error::NoGrid { at, message, edge_length: width })
+}
 
 /// A warning for each place of `grid` where the surface has no room for members of `length` metres.
 pub fn warnings(surface: &Surface, grid: &Grid, length: f64) -> Vec<String> {

@@ -2,6 +2,8 @@
 
 use crate::promise::{kept, paper, quick};
 use gridshell::DVec3;
+use gridshell::job::Job;
+use gridshell::pipeline;
 use gridshell::surface::{Model, PolygonMesh};
 use std::f64::consts::TAU;
 
@@ -52,4 +54,19 @@ fn a_hole_smaller_than_a_member_is_kept_and_named() {
         assert!(nodes.len() == 1 && nodes[0] >= 3, "nodes round the hole: {nodes:?}");
         assert!(run.warnings.iter().any(|w| w.contains("narrower")), "{:?}", run.warnings);
     }
+}
+
+/// A patch with one coordinate out by half a million metres took a minute to find that no grid fits into it.
+#[test]
+fn a_strip_far_narrower_than_a_member_is_refused_at_once() {
+    let strip = |width: f64| {
+        let xy = [[0.0, 0.0], [50.0, 0.0], [50.0, width], [0.0, width]];
+        sheet("strip", &xy, vec![(0..4).collect()])
+    };
+    for width in [0.001, 0.01, 0.04] {
+        let told = pipeline::generate(&strip(width), &quick(1.0), &Job::default());
+        let told = told.map(|_| ()).unwrap_err().to_string();
+        assert!(told.contains("wide, far narrower than members of 1.000 m"), "{told}");
+    }
+    assert!(pipeline::generate(&strip(0.2), &quick(1.0), &Job::default()).is_ok());
 }
