@@ -17,7 +17,7 @@ libfuzzer_sys::fuzz_target!(|text: &str| {
     });
     let recipe = opened.recipe.clone();
     let mut editor = Editor::new(surface.clone(), opened.grid.clone(), recipe, opened.edge_length);
-    let _ = editor.replay(&log);
+    let _ = editor.replay(&log, &gridshell::job::Job::default());
     assert!(editor.grid().mesh.check().is_ok(), "a grid that is no manifold");
     assert!(editor.grid().xyz.iter().all(|p| p.is_finite()), "a place that is none");
 });

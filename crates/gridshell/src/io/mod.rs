@@ -30,6 +30,7 @@ mod rhino;
 mod saf;
 mod scan;
 mod soup;
+mod spike;
 pub mod step;
 mod stitch;
 mod stl;

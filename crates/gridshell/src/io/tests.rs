@@ -703,3 +703,30 @@ fn unknown_names_and_extensions_are_answered_with_the_known_ones() {
     assert!(message.contains("obj, ply, stl, off"), "{message}");
     assert!(matches!(open("hexagon", &Job::default()), Ok(Model::Brep(_))));
 }
+
+#[test]
+fn a_mesh_with_one_vertex_far_away_is_refused_by_that_vertex() {
+    // One coordinate of 65536 made a spike of 65 km, and a minute of work.
+    let sheet = |far: [f64; 3], scale: f64| {
+        let mut text = String::new();
+        for k in 0..16 {
+            let p = [f64::from(k % 4) * scale, f64::from(k / 4) * scale, 0.0];
+            let [x, y, z] = if k == 5 { far } else { p };
+            text += &format!("v {x} {y} {z}\n");
+        }
+        for k in (1..=11).filter(|k| k % 4 != 0) {
+            text += &format!("f {} {} {} {}\n", k, k + 1, k + 5, k + 4);
+        }
+        text
+    };
+    for (far, scale) in
+        [([1.0, 1.0, 65536.0], 1.0), ([-1e5, 1.0, 0.0], 5.0), ([9.0, 9.0, 9.0], 0.01)]
+    {
+        let told = Scratch::new("spike.obj", sheet(far, scale)).refused();
+        assert!(
+            told.contains("face 1: its vertex at") && told.contains("most likely wrong"),
+            "{told}"
+        );
+    }
+    assert!(Scratch::new("hill.obj", sheet([1.0, 1.0, 20.0], 1.0)).read().is_ok());
+}

@@ -6,7 +6,7 @@
 //! vertices. What was done is told in the notes.
 
 use super::soup::Soup;
-use super::{LengthUnit, Opening, READING, far, file, fins, merge, stitch, thin, turn};
+use super::{LengthUnit, Opening, READING, far, file, fins, merge, spike, stitch, thin, turn};
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::surface::nurbs::FARTHEST;
@@ -67,6 +67,7 @@ pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening, job: &Job) -> Res
         return Err(Error::Surface(no_faces(path, work.points.len())));
     }
     check_area(path, &work)?;
+    spike::check(&work)?;
     job.check(READING)?;
     let count = work.faces.len();
     thin::drop_thin(&mut work, tolerance);

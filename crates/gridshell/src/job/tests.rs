@@ -25,7 +25,9 @@ fn work_that_never_polls_is_left_behind() {
     drop(free);
     let job = Job::default();
     assert_eq!(job.apart("reading", || 7).unwrap(), 7);
-    let broken = std::panic::catch_unwind(|| job.apart("reading", || panic!("a decoder's fault")));
+    let broken = std::panic::catch_unwind(|| {
+        Job::default().apart("reading", || panic!("a decoder's fault"))
+    });
     assert!(broken.is_err());
 }
 
