@@ -12,6 +12,9 @@ use serde_json::Value;
 /// Suggestions made.
 const SUGGESTED: usize = 8;
 
+/// A change of merit beyond this is one from or to a grid without irregularity and disfluency.
+const BOUNDLESS: f64 = 1e6;
+
 /// The surface that grids of this recipe lie on.
 ///
 /// # Errors
@@ -83,8 +86,11 @@ fn step(editor: &Editor, edit: &Edit, effect: &std::result::Result<Effect, Refus
 
 /// What an edit does to Q, R and mu; and to the merit, where that is not the change of Q.
 fn told(effect: &Effect) -> String {
-    let q = effect.fluency().map_or_else(|| "–".to_owned(), |q| change(q, 2));
-    let merit = change(effect.gain(), 2);
+    let none = || "–".to_owned();
+    let q = effect.fluency().map_or_else(none, |q| change(q, 2));
+    // Beside a perfect lattice, whose fluency has no bound, a number would say nothing.
+    let merit = Some(effect.gain()).filter(|gain| gain.abs() < BOUNDLESS);
+    let merit = merit.map_or_else(none, |gain| change(gain, 2));
     let told =
         format!("Q {q}, R {}, \u{3bc} {}", change(effect.residual(), 1), change(effect.mu(), 4));
     if merit == q { told } else { format!("{told}, merit {merit}") }

@@ -268,7 +268,7 @@ fn a_t_junction_leaves_no_slit() {
     let text = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 2 1 0\nv 3 0 0\nv 3 1 0\nv 3 2 0\n\
                 f 1 2 3 4\nf 2 6 7 5\nf 5 7 8 3\n";
     let mesh = Scratch::new("slit.obj", text).read().expect("a mesh");
-    assert!(mesh.notes.iter().any(|n| n.contains("joined 1 vertices")), "{:?}", mesh.notes);
+    assert!(mesh.notes.iter().any(|n| n.contains("joined 1 vertex to")), "{:?}", mesh.notes);
     let sampling = Sampling { max_edge: 9.0, chord_error: 1.0, corner_angle: 0.5 };
     let surface = mesh.surface(&sampling, &Job::default()).expect("a surface");
     assert_eq!((surface.loops.len(), surface.euler_characteristic()), (1, 1));
@@ -467,7 +467,7 @@ fn compas_meshes_old_and_new_are_read_and_openings_left_out() {
         assert_eq!((mesh.points.len(), mesh.faces.len()), (4, 1), "{name}");
         assert_eq!(mesh.points[1], DVec3::new(1.5, 0.0, 0.25));
         assert_eq!(mesh.points[0].z, 3.0, "{name}: the usual z");
-        assert!(mesh.notes.iter().any(|n| n.contains("1 faces marked as not loaded")));
+        assert!(mesh.notes.iter().any(|n| n.contains("1 face marked as not loaded")));
     }
 }
 

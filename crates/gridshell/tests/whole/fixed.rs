@@ -274,7 +274,7 @@ fn what_is_near_or_narrow_is_told() {
     let across = |y: f64| vec![[-2., y, 0.], [2., y, 0.]];
     told(vec![across(0.0), across(0.2)], vec![], "closer than half a member to another feature");
     told(vec![across(-3.3)], vec![], "closer than half a member to the boundary");
-    told(vec![], vec![[0., 0., 0.1]], "1.000e-1 m off the surface and was moved");
+    told(vec![], vec![[0., 0., 0.1]], "0.100 m off the surface and was moved");
     told(vec![], vec![[0., 0., 0.], [0.1, 0., 0.]], "fixed nodes are closer than half a member");
     told(vec![vec![[0., 0., 0.], [0., -3.8, 0.]]], vec![], "ends at the boundary");
 }

@@ -63,7 +63,7 @@ fn a_strip_far_narrower_than_a_member_is_refused_at_once() {
         let xy = [[0.0, 0.0], [50.0, 0.0], [50.0, width], [0.0, width]];
         sheet("strip", &xy, vec![(0..4).collect()])
     };
-    for width in [0.001, 0.01, 0.04] {
+    for width in [0.01, 0.02, 0.04] {
         let told = pipeline::generate(&strip(width), &quick(1.0), &Job::default());
         let told = told.map(|_| ()).unwrap_err().to_string();
         assert!(told.contains("wide, far narrower than members of 1.000 m"), "{told}");
