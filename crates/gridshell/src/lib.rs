@@ -7,9 +7,10 @@
 //! ```
 //! use gridshell::{io, job::Job, pipeline, recipe::Recipe};
 //!
-//! let model = io::open("hexagon")?;
+//! let job = Job::default();
+//! let model = io::open("hexagon", &job)?;
 //! let recipe = Recipe { edge_length: Some(1.0), ..Recipe::default() };
-//! let run = pipeline::generate(&model, &recipe, &Job::default())?;
+//! let run = pipeline::generate(&model, &recipe, &job)?;
 //! println!("{} nodes, fluency {:?}", run.quality.nodes, run.quality.fluency);
 //! # assert_eq!(run.quality.euler_characteristic, 1);
 //! # Ok::<(), gridshell::Error>(())

@@ -8,10 +8,11 @@
 //! use std::sync::Arc;
 //!
 //! let recipe = Recipe { edge_length: Some(0.8), effort: Effort::Draft, ..Recipe::default() };
-//! let model = io::open("hexagon")?;
-//! let run = pipeline::generate(&model, &recipe, &Job::default())?;
+//! let job = Job::default();
+//! let model = io::open("hexagon", &job)?;
+//! let run = pipeline::generate(&model, &recipe, &job)?;
 //! # let sampling = Sampling { max_edge: 0.4, chord_error: 1e-3, corner_angle: 0.5 };
-//! # let surface = model.surface(&sampling)?;
+//! # let surface = model.surface(&sampling, &job)?;
 //! # let panels: Vec<_> = run.grid.mesh.triangles().collect();
 //! # let grid = gridshell::grid::Grid::from_panels(run.grid.xyz.clone(), &panels, &surface)?;
 //! let mut editor = Editor::new(Arc::new(surface), grid, recipe, 0.8);
