@@ -21,6 +21,7 @@ use super::trim::{Edges, Polyline, Tracer};
 use super::{Curve, PREPARING, poles, sample, seam, size};
 use crate::error::Result;
 use crate::job::Job;
+use crate::words;
 use cut::{Cell, Cutter};
 use draft::Draft;
 use glam::DVec3;
@@ -38,7 +39,7 @@ const FOUND: f64 = 1e-3;
 /// Parts of one face at most; one with more stays whole.
 const MOST_PARTS: usize = 50_000;
 
-/// Part all faces that fold. A face that cannot be parted stays as it is.
+/// Part all faces that fold. A face that cannot be parted stays as it is, which is noted.
 ///
 /// # Errors
 /// [`Error::Stopped`](crate::Error::Stopped) where the job was stopped.
@@ -58,16 +59,24 @@ pub fn split_folds(brep: &mut Brep, job: &Job) -> Result<()> {
     let edges =
         Edges { curves: &curves, polylines: &polylines, points: &points, origin: brep.origin };
     let mut draft = Draft::new(&parted, snap);
-    let mut parts = Vec::new();
-    for (i, lines) in folded.iter().filter(|(i, _)| ready.contains(i)) {
+    let (mut parts, mut whole) = (Vec::new(), Vec::new());
+    for (i, lines) in &folded {
         job.check(PREPARING)?;
         let mark = draft.mark();
-        match part(&parted, *i, lines, &edges, &mut draft, job) {
-            Some(cells) if cells.len() > 1 => parts.push((*i, cells)),
-            _ => draft.back_to(&mark),
+        let cells = ready.contains(i).then(|| part(&parted, *i, lines, &edges, &mut draft, job));
+        match cells.flatten() {
+            Some(cells) if cells.len() > 1 => {
+                parts.push((*i, cells));
+                continue;
+            }
+            Some(_) => {}
+            None => whole.push(*i),
         }
+        draft.back_to(&mark);
     }
+    let left = left_whole(brep, &whole);
     if parts.is_empty() {
+        brep.notes.extend(left);
         return Ok(());
     }
     let (before, after) = (parts.len(), parts.iter().map(|p| p.1.len()).sum::<usize>());
@@ -78,8 +87,21 @@ pub fn split_folds(brep: &mut Brep, job: &Job) -> Result<()> {
     } else {
         format!("{before} faces that fold along lines inside them are taken as {after}, which meet in creases")
     });
+    parted.notes.extend(left);
     *brep = parted;
     Ok(())
+}
+
+/// A note on faces that could not be parted.
+fn left_whole(brep: &Brep, faces: &[usize]) -> Option<String> {
+    let &first = faces.first()?;
+    let fold = words::one_or_more(faces.len(), ["face folds", "faces fold"]);
+    Some(format!(
+        "{fold} along lines that could not be split ({}{}): the creases there are not followed; split there in the program \
+         that made the file",
+        if faces.len() > 1 { "the first is " } else { "" },
+        brep.faces[first].told(first)
+    ))
 }
 
 /// The folded faces that have, or could be given, loops that close in (u, v).

@@ -117,6 +117,18 @@ fn an_edge_that_bounds_no_face_is_not_followed() {
 }
 
 #[test]
+fn a_face_of_too_many_folds_is_told_to_stay_whole() {
+    let mut brep = whole(net(240, 240, |i, j| 0.6 * (i % 2 + j % 2) as f64));
+    split_folds(&mut brep, &Job::default()).unwrap();
+    assert_eq!(brep.faces.len(), 1);
+    assert!(
+        brep.notes[0].starts_with("1 face folds along lines that could not be split (face 1"),
+        "{:?}",
+        brep.notes
+    );
+}
+
+#[test]
 fn folded_plates_in_both_directions_meet_in_points() {
     let roof = net(4, 3, |i, j| 0.6 * (i % 2 + j % 2) as f64);
     let (brep, surface) = laid(whole(roof));
