@@ -165,9 +165,10 @@ fn coedges(ring: &[Piece], pieces: &[Vec<(f64, u32)>], reversed: bool) -> Vec<Co
         let of_edge = &pieces[edge as usize];
         let from = of_edge.partition_point(|&(to, _)| to <= lo);
         let to = of_edge.partition_point(|&(to, _)| to < hi);
-        let run = of_edge[from..=to.min(of_edge.len() - 1).max(from)].iter();
+        // In a damaged file a piece may lie beyond its edge: the loop is then open, and refused as such.
+        let run = of_edge.get(from..=to.min(of_edge.len() - 1).max(from)).unwrap_or_default();
         let first = all.len();
-        all.extend(run.map(|&(_, edge)| Coedge { edge, reversed: start > end }));
+        all.extend(run.iter().map(|&(_, edge)| Coedge { edge, reversed: start > end }));
         if start > end {
             all[first..].reverse();
         }
