@@ -57,6 +57,7 @@ pub use values::{read_directions, read_lengths};
 
 use crate::error::{Error, Result};
 use crate::job::{Job, Picture};
+use crate::math::digits::three;
 use crate::surface::{Model, PolygonMesh, Source, builtin, sew, split_folds};
 use serde::{Deserialize, Serialize};
 use soup::Soup;
@@ -155,7 +156,7 @@ fn odd_size(size: f64) -> Option<String> {
     (!(LEAST_SIZE..=MOST_SIZE).contains(&size)).then(|| {
         format!(
             "the model is {} m across; if it should not be, say in which unit its lengths are (--units)",
-            crate::math::digits::three(size)
+            three(size)
         )
     })
 }

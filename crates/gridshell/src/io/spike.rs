@@ -2,11 +2,9 @@
 
 use super::weld::{Work, place};
 use crate::error::{Error, Result};
+use crate::surface::FARTHEST;
 use glam::DVec3;
 
-/// A vertex may be as many times as far out as the others' box is long. Sound meshes stay within two; a wrong digit in
-/// front that gets by costs as many times its faces' triangles.
-const FARTHEST: f64 = 64.0;
 /// Meshes of fewer vertices say nothing about where a vertex belongs.
 const FEWEST: usize = 6;
 

@@ -21,7 +21,9 @@ const MOST: usize = 8;
 pub fn check(surface: &Surface, length: f64) -> Result<()> {
     let border: f64 = surface.loops.iter().map(Chain::length).sum();
     let width = 2.0 * surface.area / border;
-    let Some(first) = surface.loops.first().filter(|_| width < NEAREST * length) else {
+    // Where lengths vary, the shortest may still fit.
+    let shortest = length * surface.scale.iter().copied().fold(1.0, f64::min);
+    let Some(first) = surface.loops.first().filter(|_| width < NEAREST * shortest) else {
         return Ok(());
     };
     let at = surface.origin.world(first.exact(surface, 0.0)).to_array();

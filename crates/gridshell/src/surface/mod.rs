@@ -85,6 +85,10 @@ pub(crate) use seam::bound;
 use glam::DVec3;
 use track::Tracks;
 
+/// What runs so many times as far away from all else in a file as that is long comes from a wrong number: a face from the
+/// model's edges, a vertex from all others. Sound models stay within two; a wrong digit in front that gets by costs as
+/// many times its triangles.
+pub(crate) const FARTHEST: f64 = 64.0;
 /// Nodes nearer to one another than this, over the length wanted there, count as one. Larger, and details of a border
 /// that can well be built would be left out; smaller, and members shorter than a node is wide would pass.
 pub const NEAREST: f64 = 0.05;

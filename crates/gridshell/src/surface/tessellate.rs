@@ -13,7 +13,7 @@ use super::shape::Shape;
 use super::stretch::{self, Stretch};
 use super::track::{Track, Tracks};
 use super::trim::{Edges, NEW, Node, Polyline, Tracer, Trim};
-use super::{PREPARING, Surface, area, chain, fill, order, sample, seam, weave};
+use super::{FARTHEST, PREPARING, Surface, area, chain, fill, order, sample, seam, weave};
 use crate::error::{Error, Result};
 use crate::job::{Job, Picture};
 use glam::{DVec2, DVec3};
@@ -35,10 +35,6 @@ const LEAST_FOR_BENDS: f64 = 1_000.0;
 const EASED: f64 = 4.0;
 /// Eased so often, the spacing no longer depends on bends.
 const MOST_EASINGS: usize = 8;
-
-/// A face may run so many diagonals of the model's edges away from them; beyond, a number in the file is wrong. Sound
-/// faces stay within two; a wrong digit in front that gets by costs as many times its face's triangles.
-const FARTHEST: f64 = 64.0;
 
 /// Rounds of leaving out nodes that pinch the surface at a pole.
 const MOST_PINCHES: usize = 20;
