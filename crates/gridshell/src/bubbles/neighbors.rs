@@ -4,43 +4,59 @@ use crate::surface::{Carrier, SurfacePoint};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Neighbours of each point within `radius`, in ascending order. A neighbour counts only if walking along
-/// the chord on the carrier arrives at it, so the other sheet of a fold is no neighbour however near. Points
-/// that were neighbours in `before` (empty, or lists of the same points a little while ago) are on one sheet.
-pub fn neighbors(
-    carrier: &Carrier,
-    points: &[SurfacePoint],
-    xyz: &[DVec3],
-    radius: f64,
-    before: &[Vec<u32>],
-) -> Vec<Vec<u32>> {
-    let cells = Cells::new(xyz, radius);
-    let mut lists: Vec<Vec<u32>> = (0..points.len())
-        .into_par_iter()
-        .map(|i| {
-            let known = before.get(i).map_or(&[][..], Vec::as_slice);
-            let mut near = cells.near(xyz[i]);
-            near.retain(|&j| {
-                j as usize > i
-                    && xyz[i].distance_squared(xyz[j as usize]) < radius * radius
-                    && (known.binary_search(&j).is_ok()
-                        || same_sheet(carrier, &points[i], xyz[j as usize], radius))
-            });
-            near.sort_unstable();
-            near
-        })
-        .collect();
-    // Each pair was looked at from one side: the other learns of it, the least neighbours first.
-    let mut both: Vec<Vec<u32>> = vec![Vec::new(); points.len()];
-    for (i, list) in lists.iter().enumerate() {
-        for &j in list {
-            both[j as usize].push(i as u32);
+/// Lists after which pairs found on two sheets are not walked again. With fewer, a pair beside a crease that was seen
+/// too early is never seen again; with more, a surface that waves within a member walks thousands of pairs for nothing
+/// at every list.
+const WALKED_AGAIN: usize = 4;
+
+/// Neighbours of points that move, brought up to date from time to time.
+#[derive(Default)]
+pub struct Neighbors {
+    /// Neighbours of each point, in ascending order.
+    pub lists: Vec<Vec<u32>>,
+    /// Points as near as neighbours, but on another sheet; of each pair, those of the higher index.
+    apart: Vec<Vec<u32>>,
+    /// How often they were listed.
+    listed: usize,
+}
+
+impl Neighbors {
+    /// List the neighbours within `radius` anew. A neighbour counts only if walking along the chord on the carrier
+    /// arrives at it, so the other sheet of a fold is no neighbour however near. Points that were neighbours the last
+    /// time are on one sheet.
+    pub fn list(&mut self, carrier: &Carrier, points: &[SurfacePoint], xyz: &[DVec3], radius: f64) {
+        let cells = Cells::new(xyz, radius);
+        let has = |lists: &[Vec<u32>], i: usize, j| {
+            lists.get(i).is_some_and(|list| list.binary_search(&j).is_ok())
+        };
+        let again = self.listed < WALKED_AGAIN;
+        let (mut lists, apart): (Vec<Vec<u32>>, Vec<Vec<u32>>) = (0..points.len())
+            .into_par_iter()
+            .map(|i| {
+                let mut near = cells.near(xyz[i]);
+                near.retain(|&j| {
+                    j as usize > i && xyz[i].distance_squared(xyz[j as usize]) < radius * radius
+                });
+                near.sort_unstable();
+                near.into_iter().partition(|&j| {
+                    has(&self.lists, i, j)
+                        || (again || !has(&self.apart, i, j))
+                            && same_sheet(carrier, &points[i], xyz[j as usize], radius)
+                })
+            })
+            .unzip();
+        // Each pair was looked at from one side: the other learns of it, the least neighbours first.
+        let mut both: Vec<Vec<u32>> = vec![Vec::new(); points.len()];
+        for (i, list) in lists.iter().enumerate() {
+            for &j in list {
+                both[j as usize].push(i as u32);
+            }
         }
+        for (all, above) in both.iter_mut().zip(&mut lists) {
+            all.append(above);
+        }
+        *self = Neighbors { lists: both, apart, listed: self.listed + 1 };
     }
-    for (all, above) in both.iter_mut().zip(&mut lists) {
-        all.append(above);
-    }
-    both
 }
 
 /// Whether walking from `from` along the straight line to `target` arrives there.
@@ -88,4 +104,35 @@ impl Cells {
 
 fn cube(p: DVec3, size: f64) -> [i64; 3] {
     (p / size).floor().to_array().map(|x| x as i64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two sheets 0.1 apart, joined by a wall at x = 0.
+    fn pocket() -> Carrier {
+        let points = [[3.0, 0.0], [0.0, 0.0], [0.0, 0.1], [3.0, 0.1]];
+        let points =
+            points.iter().flat_map(|&[x, z]| [0.0, 3.0].map(|y| DVec3::new(x, y, z))).collect();
+        let triangles = [0, 2, 4].iter().flat_map(|&k| [[k, k + 2, k + 1], [k + 1, k + 2, k + 3]]);
+        let triangles: Vec<[u32; 3]> = triangles.collect();
+        let patch = vec![0; triangles.len()];
+        Carrier::new(points, triangles, patch, Vec::new())
+    }
+
+    /// Waves shorter than a member had thousands of pairs that were walked in vain at every list.
+    #[test]
+    fn sheets_stay_apart_and_one_sheet_together_however_often_they_are_listed() {
+        let carrier = pocket();
+        // Two points on the lower sheet, one above the first.
+        let points = [(0, [0.5, 0.3, 0.2]), (0, [0.5, 0.2, 0.3]), (4, [0.3, 0.4, 0.3])]
+            .map(|(triangle, bary)| SurfacePoint { triangle, bary });
+        let xyz = points.map(|p| carrier.xyz(&p));
+        let mut neighbors = Neighbors::default();
+        for _ in 0..2 * WALKED_AGAIN {
+            neighbors.list(&carrier, &points, &xyz, 1.0);
+            assert_eq!(neighbors.lists, [vec![1], vec![0], vec![]]);
+        }
+    }
 }

@@ -21,12 +21,13 @@ mod wishes;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::job::Job;
+use crate::math::digits::three;
 use crate::recipe::{Recipe, Symmetry};
 use crate::run::{CandidateReport, Run, SCHEMA, StageReport, SurfaceSummary};
 use crate::schedule::{Schedule, Tolerances};
 use crate::stages::measure::{Quality, irregular_nodes, measure};
 use crate::stages::triangulate;
-use crate::surface::{Model, Ruler, Sampling, Surface, builtin};
+use crate::surface::{Chain, Model, Ruler, Sampling, Surface, builtin};
 use crate::validity::Validity;
 pub use missing::check_whole;
 use places::local;
@@ -320,8 +321,23 @@ fn scale_on(mut surface: Surface, recipe: &Recipe) -> Result<Scale> {
             .find(|b| b.name == surface.name)
             .map_or_else(|| length_for(&surface, SENSIBLE_NODES), |b| b.edge_length),
     };
-    Recipe::check_edge_length(length, surface.area)?;
+    let given = mean.or(recipe.edge_length).is_some();
+    Recipe::check_edge_length(length, surface.area).map_err(|e| match recipe.nodes {
+        Some(nodes) if !given => too_narrow(nodes, &surface),
+        _ => e,
+    })?;
     Ok(Scale { length, nodes: nodes_for(&surface, length) })
+}
+
+/// A surface whose boundary alone would take so many nodes.
+fn too_narrow(nodes: usize, surface: &Surface) -> Error {
+    let boundary: f64 = surface.loops.iter().map(Chain::length).sum();
+    Error::Surface(format!(
+        "no members make about {nodes} nodes on a surface of {} m2 whose boundary is {} m long: if these figures are \
+         not what was drawn, repair the file in the program that made it; otherwise give an edge length",
+        three(surface.area),
+        three(boundary)
+    ))
 }
 
 /// About how many nodes members of `length` metres make: n = A / (2 A0) + n_b / 2 + chi (Eq. 1 with the

@@ -27,7 +27,7 @@ const MOST_TRIANGLES: f64 = 8e6;
 /// Nodes of one face at most: its share of some for the bends of the whole model, and some for each square of the
 /// longest edge in its area. A flat face has 2.3 to a square, a sphere of 17 squares twice that. With more for bends,
 /// waves shorter than a member cost seconds that no grid gains from; with fewer, they are drawn too coarsely.
-const NODES_FOR_BENDS: f64 = 20_000.0;
+const NODES_FOR_BENDS: f64 = 10_000.0;
 const NODES_TO_A_SQUARE: f64 = 8.0;
 /// As many are left to each face of a model of many.
 const LEAST_FOR_BENDS: f64 = 1_000.0;
@@ -171,9 +171,9 @@ pub(super) fn sample_edges(
 ) -> Result<(Vec<DVec3>, Vec<Polyline>)> {
     let mut points = brep.vertices.clone();
     let mut polylines = Vec::with_capacity(brep.edges.len());
-    for e in &brep.edges {
+    for (i, e) in brep.edges.iter().enumerate() {
         job.check(PREPARING)?;
-        let t = sample::parameters(e, sampling).ok_or_else(too_fine)?;
+        let t = sample::parameters(e, sampling).ok_or_else(|| too_long(brep, i))?;
         let mut vertices = vec![e.ends[0]];
         for &t in &t[1..t.len() - 1] {
             vertices.push(points.len() as u32);
@@ -185,10 +185,13 @@ pub(super) fn sample_edges(
     Ok((points, polylines))
 }
 
-fn too_fine() -> Error {
-    Error::Option(
-        "the edge length is too small for so large a surface; ask for a longer one".into(),
-    )
+/// An edge that is too long for its surface, as members suit the surface's area.
+fn too_long(brep: &Brep, i: usize) -> Error {
+    let at = brep.origin.told(brep.vertices[brep.edges[i].ends[0] as usize]);
+    Error::Surface(format!(
+        "an edge that starts near {at} is far too long for its surface, or too crumpled; repair it in the program that \
+         made the file, or ask for longer members"
+    ))
 }
 
 /// Mesh one face of so many.
@@ -208,7 +211,10 @@ fn piece(
     let stretch = Stretch::new(shape, tracer.poles(), lo, hi, sampling.max_edge);
     let rough = polygon_area(&loops, stretch.scale()) / (sampling.max_edge * sampling.max_edge);
     if rough > MOST_TRIANGLES {
-        return Err("the edge length is too small for so large a face; ask for a longer one".into());
+        return Err(
+            "it is far too large for members this short; ask for longer ones, or repair it if it should be smaller"
+                .into(),
+        );
     }
     let mut nodes: Vec<Node> = loops.iter().flatten().copied().collect();
     let mut rims = Vec::with_capacity(nodes.len());

@@ -1,10 +1,11 @@
 //! Places where the surface is narrower than a member.
 
 use crate::promise::{kept, paper, quick};
-use gridshell::DVec3;
 use gridshell::job::Job;
 use gridshell::pipeline;
+use gridshell::recipe::Recipe;
 use gridshell::surface::{Model, PolygonMesh};
+use gridshell::{DVec3, Error};
 use std::f64::consts::TAU;
 
 fn sheet(name: &str, xy: &[[f64; 2]], faces: Vec<Vec<u32>>) -> Model {
@@ -69,4 +70,16 @@ fn a_strip_far_narrower_than_a_member_is_refused_at_once() {
         assert!(told.contains("wide, far narrower than members of 1.000 m"), "{told}");
     }
     assert!(pipeline::generate(&strip(0.2), &quick(1.0), &Job::default()).is_ok());
+}
+
+/// Damaged files asked for nodes were answered with an edge length that nobody had given.
+#[test]
+fn nodes_that_no_members_make_are_refused_by_the_surface_s_own_figures() {
+    let strip =
+        sheet("strip", &[[0.0, 0.0], [1e6, 0.0], [1e6, 1.0], [0.0, 1.0]], vec![vec![0, 1, 2, 3]]);
+    let recipe = Recipe { nodes: Some(400), edge_length: None, ..Recipe::default() };
+    let error = pipeline::generate(&strip, &recipe, &Job::default()).expect_err("no room");
+    assert!(matches!(error, Error::Surface(_)), "{error}");
+    let message = error.to_string();
+    assert!(message.contains("400 nodes") && message.contains("boundary"), "{message}");
 }

@@ -1,6 +1,6 @@
 //! The bubbles' dynamics (Eq. 2 to 10): damped motion under inter-bubble forces and the surface's pull.
 
-use crate::bubbles::{Bubbles, neighbors::neighbors};
+use crate::bubbles::{Bubbles, neighbors::Neighbors};
 use crate::job::{Job, Picture};
 use crate::recipe::Pack;
 use crate::surface::{Surface, SurfacePoint};
@@ -54,7 +54,7 @@ pub fn settle(
     let mass = options.k_f * options.k_f / (4.0 * options.xi * options.xi * options.k_b);
     let dt = STEP_SHARE * 2.0 / ((options.k_c + 6.0 * options.k_b) / mass).sqrt();
     let mut report = Report { steps: 0, last_move: f64::INFINITY, converged: bodies.is_empty() };
-    let mut lists: Vec<Vec<u32>> = Vec::new();
+    let mut neighbors = Neighbors::default();
     let mut listed_at: Vec<DVec3> = Vec::new();
     while !report.converged && report.steps < options.max_steps && !job.stopped() {
         let feet: Vec<SurfacePoint> =
@@ -65,12 +65,12 @@ pub fn settle(
         let strayed = |(p, q): (&DVec3, &DVec3)| p.distance(*q) > 0.5 * SKIN * edge_length;
         if listed_at.is_empty() || xyz.iter().zip(&listed_at).any(strayed) {
             let radius = diameter * largest + SKIN * edge_length;
-            lists = neighbors(carrier, &feet, &xyz, radius, &lists);
+            neighbors.list(carrier, &feet, &xyz, radius);
             listed_at.clone_from(&xyz);
         }
         bodies.par_iter_mut().enumerate().for_each(|(i, body)| {
             let i = fixed.len() + i;
-            let push = lists[i]
+            let push = neighbors.lists[i]
                 .iter()
                 .map(|&j| {
                     let diameter = diameter * 0.5 * (scales[i] + scales[j as usize]);
