@@ -8,9 +8,8 @@ use crate::picture::colour::{Coloring, Colours};
 use crate::picture::svg::escaped;
 use crate::progress::Work;
 use crate::report::{self, Colored};
-use crate::subject::{Measured, Subject};
-use crate::{recipe, say};
-use gridshell::reopen;
+use crate::{open, say};
+use gridshell::design::Design;
 use gridshell::schedule::Figures;
 use gridshell::stages::measure::Quality;
 use serde::Serialize;
@@ -35,33 +34,32 @@ struct Entry<'a> {
 }
 
 impl<'a> Entry<'a> {
-    fn new(name: &'a str, measured: &'a Measured) -> Entry<'a> {
-        let Subject { edge_length, quality, schedule, .. } = measured.subject();
-        Entry { grid: name, edge_length, quality, figures: &schedule.figures }
+    fn new(name: &'a str, design: &'a Design) -> Entry<'a> {
+        let Design { edge_length, quality, schedule, .. } = design;
+        Entry { grid: name, edge_length: *edge_length, quality, figures: &schedule.figures }
     }
 }
 
 pub fn run(args: &Compare, work: &Work) -> Result<Outcome, Failure> {
     let job = &work.job;
     args.html.as_deref().map_or(Ok(()), report::check)?;
+    let how = open::reopening(
+        args.surface.as_deref(),
+        args.reading.opening(),
+        args.following.follow(),
+        &args.alike,
+    );
     let mut grids = Vec::new();
     for path in &args.grids {
-        let (opening, follow) = (args.reading.opening(), args.following.follow());
-        let opened = reopen::open(path, args.surface.as_deref(), &opening, follow, job);
-        let mut opened = opened.map_err(Failure::of_input)?;
-        recipe::tolerances(&mut opened.recipe, &args.alike);
-        say::reading(&format!("{}: ", path.display()), &opened.losses, &opened.notes);
-        grids.push((label(path), Measured::new(opened, job)?));
+        let of = format!("{}: ", path.display());
+        grids.push((label(path), open::read(path, &of, &how, job)?));
     }
     work.told();
-    let columns: Vec<Column> = grids
-        .iter()
-        .map(|(name, measured)| Column { name, facts: facts(&measured.subject()) })
-        .collect();
+    let columns: Vec<Column> =
+        grids.iter().map(|(name, design)| Column { name, facts: facts(design) }).collect();
     let mut reported = Ok(());
     if let Some(file) = &args.html {
-        let subjects: Vec<Subject> = grids.iter().map(|(_, m)| m.subject()).collect();
-        reported = report::write(file, &page(&columns, &subjects));
+        reported = report::write(file, &page(&columns, &grids));
         if reported.is_ok() {
             say::note(&format!("wrote {}", file.display()));
         }
@@ -71,7 +69,7 @@ pub fn run(args: &Compare, work: &Work) -> Result<Outcome, Failure> {
             schema: "gridshell.compare/1",
             version: env!("CARGO_PKG_VERSION"),
             units: "m",
-            grids: grids.iter().map(|(name, measured)| Entry::new(name, measured)).collect(),
+            grids: grids.iter().map(|(name, design)| Entry::new(name, design)).collect(),
         })?;
     } else {
         say::result(&table(&columns))?;
@@ -126,7 +124,7 @@ fn table(columns: &[Column]) -> String {
 }
 
 /// The table with a plan of each grid.
-fn page(columns: &[Column], subjects: &[Subject]) -> String {
+fn page(columns: &[Column], grids: &[(String, Design)]) -> String {
     let cells = |of: &dyn Fn(usize) -> String| (0..columns.len()).map(of).collect::<String>();
     let mut body = String::from(
         "<header><h1>Grids side by side</h1><p>The best of these in green.</p></header>",
@@ -135,14 +133,14 @@ fn page(columns: &[Column], subjects: &[Subject]) -> String {
     body += &cells(&|k| format!("<th>{}</th>", escaped(columns[k].name)));
     body += "</tr><tr><td></td>";
     let mut style = String::new();
-    for (k, subject) in subjects.iter().enumerate() {
-        let colours = Colours::new(Coloring::Length, subject);
+    for (k, (_, design)) in grids.iter().enumerate() {
+        let colours = Colours::new(Coloring::Length, design);
         let colored = [Colored { key: "length", colours }];
         // The steps have the same colours in every grid: one style does for all.
         if k == 0 {
             style = report::style(&colored);
         }
-        body += &format!("<td><figure>{}</figure></td>", report::plan(subject, &colored));
+        body += &format!("<td><figure>{}</figure></td>", report::plan(design, &colored));
     }
     body += "</tr>";
     for row in 0..columns.first().map_or(0, |c| c.facts.len()) {

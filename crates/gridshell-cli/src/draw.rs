@@ -5,18 +5,17 @@ use crate::args::Draw;
 use crate::failure::Failure;
 use crate::picture::sheet::Wish;
 use crate::progress::Work;
-use crate::subject::Measured;
 use crate::{handover, open, picture, say};
 
 pub fn run(args: &Draw, work: &Work) -> Result<Outcome, Failure> {
     let job = &work.job;
     args.output.iter().try_for_each(|file| picture::check(file))?;
-    let measured = Measured::new(open::open(&args.grid, job)?, job)?;
+    let design = open::open(&args.grid, job)?;
     let wish =
         Wish { sheet: args.view, paper: args.paper, coloring: args.color, labels: &args.labels };
     let (mut wrote, mut drawn) = (Vec::new(), Vec::new());
     for file in &args.output {
-        let done = picture::draw_sheet(&measured.subject(), &wish, file);
+        let done = picture::draw_sheet(&design, &wish, file);
         if done.is_ok() {
             wrote.push(format!("wrote {}", file.display()));
         }

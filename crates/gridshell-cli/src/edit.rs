@@ -4,18 +4,15 @@ use crate::Outcome;
 use crate::args::Edit;
 use crate::failure::Failure;
 use crate::progress::Work;
-use crate::{handover, recipe, say};
+use crate::{handover, open, say};
 use gridshell::Error;
-use gridshell::edit::{Editor, Figures, Log};
-use gridshell::io::{self, GridFile};
+use gridshell::edit::{Figures, Log};
+use gridshell::io;
 use gridshell::job::Job;
-use gridshell::reopen::{self, Opened};
-use gridshell::schedule::{Schedule, Tolerances};
 use gridshell::validity::Fault;
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;
-use std::sync::Arc;
 
 /// A larger file is not read as a log: a million edits take less.
 const LARGEST_LOG: u64 = 100_000_000;
@@ -45,17 +42,16 @@ pub fn run(args: &Edit, work: &Work) -> Result<Outcome, Failure> {
     let structure = handover::structure(&args.handover)?;
     let supports = handover::supports(&args.handover, job)?;
     let log = args.log.as_deref().map(|path| read_log(path, job)).transpose()?;
-    let opening = args.reading.opening();
-    let mut opened =
-        reopen::open(&args.grid, args.surface.as_deref(), &opening, args.following.follow(), job)
-            .map_err(Failure::of_input)?;
-    recipe::tolerances(&mut opened.recipe, &args.alike);
-    say::reading("", &opened.losses, &opened.notes);
-    let Opened { document, grid, surface, edge_length, recipe, .. } = opened;
-    let tolerances = Tolerances::from(&recipe.measure);
-    let mut editor = Editor::new(Arc::new(surface), grid, recipe, edge_length);
+    let how = open::reopening(
+        args.surface.as_deref(),
+        args.reading.opening(),
+        args.following.follow(),
+        &args.alike,
+    );
+    let mut opened = open::read(&args.grid, "", &how, job)?;
+    opened.structure = structure;
+    let mut editor = opened.edit();
     let before = editor.figures();
-    let faults = editor.validity(&editor.finished()).faults;
     if let (Some(log), Some(path)) = (log, &args.log) {
         editor.replay(&log, job).map_err(|e| match e {
             Error::Stopped { .. } => Failure::from(e),
@@ -70,27 +66,18 @@ pub fn run(args: &Edit, work: &Work) -> Result<Outcome, Failure> {
         steps(editor.suggest(args.suggest, job).into_iter().map(|(e, f)| (e, f.after)).collect());
     // What was done is there: what remains is to write it.
     let job = &job.after();
-    let grid = editor.finished();
-    let schedule = Schedule::within(&grid, editor.surface(), &tolerances, job)?;
-    let mut document = reopen::edited(&document, &editor);
-    if let Some(supports) = supports {
-        document.supports = supports.nodes(&grid, editor.surface())?;
-    }
-    document.panels.clone_from(&schedule.panels.nodes);
-    let look = editor.validity(&grid);
-    document.invalid = (!look.is_valid()).then(|| look.summary());
-    if !args.output.is_empty()
-        && !args.keep_invalid
-        && look.faults.iter().any(|f| is_new(f, &faults))
+    let mut design = opened.edited(&editor, job)?;
+    supports.iter().try_for_each(|s| design.support(s))?;
+    let worse = design.faults.iter().any(|f| is_new(f, &opened.faults));
+    if let Some(what) = design.invalid().filter(|_| worse && !args.keep_invalid)
+        && !args.output.is_empty()
     {
         return Err(Failure::invalid(format!(
-            "the edits leave no valid grid: {}; take the last ones out of the log, or write it all the same with \
-             --keep-invalid",
-            look.summary()
+            "the edits leave no valid grid: {what}; take the last ones out of the log, or write it all the same with \
+             --keep-invalid"
         )));
     }
-    let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
-    let (wrote, written) = handover::write_all(&args.output, &file, job);
+    let (wrote, written) = handover::write_all(&args.output, &design, job);
     handover::all_or_told(&wrote, [written])?;
     let wrote = wrote.join("\n");
     let (schema, version) = ("gridshell.edit/1", env!("CARGO_PKG_VERSION"));
@@ -101,7 +88,7 @@ pub fn run(args: &Edit, work: &Work) -> Result<Outcome, Failure> {
     } else {
         say::result(&table(&before, &edits, &suggested, &wrote))?;
     }
-    for n in &look.warnings() {
+    for n in &design.warnings {
         say::note(&format!("note: {n}"));
     }
     Ok(if work.job.stopped() { Outcome::Stopped } else { Outcome::Done })

@@ -1,6 +1,6 @@
 //! The figures of a grid in the order and the words that people get them in: on sheets, in reports, side by side.
 
-use crate::subject::Subject;
+use gridshell::design::Design;
 
 /// One figure.
 pub struct Fact {
@@ -29,13 +29,13 @@ impl Rank {
 }
 
 /// All figures of a grid.
-pub fn facts(subject: &Subject) -> Vec<Fact> {
-    let (q, f) = (subject.quality, &subject.schedule.figures);
+pub fn facts(design: &Design) -> Vec<Fact> {
+    let (q, f) = (&design.quality, &design.schedule.figures);
     let mut facts = Facts(Vec::new());
     facts.count("nodes", q.nodes);
     facts.count("members", q.members);
     facts.count("panels", q.panels);
-    facts.plain("wanted member length", format!("{:.3} m", subject.edge_length));
+    facts.plain("wanted member length", format!("{:.3} m", design.edge_length));
     let l = &f.length.spread;
     facts.plain("mean member length", format!("{:.3} m", l.mean));
     facts.plain("members from", format!("{:.3} to {:.3} m", l.min, l.max));
@@ -66,7 +66,7 @@ pub fn facts(subject: &Subject) -> Vec<Fact> {
     facts.less("greatest fold", f.fold_deg.max, format!("{:.2} deg", f.fold_deg.max));
     facts.less("greatest twist", f.twist_deg.max, format!("{:.2} deg", f.twist_deg.max));
     facts.plain("area over the surface's", format!("{:.4}", q.area_ratio));
-    let off = q.surface_deviation * subject.edge_length * 1e3;
+    let off = q.surface_deviation * design.edge_length * 1e3;
     facts.plain("off the surface", format!("{off:.3} mm at most"));
     facts.0
 }

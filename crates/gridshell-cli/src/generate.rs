@@ -4,13 +4,11 @@ use crate::Outcome;
 use crate::args::Generate;
 use crate::failure::Failure;
 use crate::progress::Work;
-use crate::subject::Subject;
 use crate::{handover, recipe, report, say, table};
-use gridshell::io::{self, Document, GridFile};
+use gridshell::design::Design;
+use gridshell::io::{self, Document};
 use gridshell::job::Job;
 use gridshell::pipeline;
-use gridshell::run::Run;
-use gridshell::structure::Supports;
 use std::path::{Path, PathBuf};
 
 pub fn run(args: &Generate, work: &Work) -> Result<Outcome, Failure> {
@@ -37,28 +35,26 @@ pub fn run(args: &Generate, work: &Work) -> Result<Outcome, Failure> {
     // Losses that are too large to go on with are named by the error.
     pipeline::check_whole(&model, &recipe, job)?;
     say::reading("", &model.source().told_losses(), model.notes());
-    let run = pipeline::generate(&model, &recipe, job)?;
+    let mut design = Design::generate(&model, &recipe, job)?.referring_to(Some(reference));
     // What was stopped is there: what remains is to write it.
     let job = &job.after();
 
     let outputs = match args.output.as_slice() {
-        [] => vec![default_output(&run, &args.surface)],
+        [] => vec![default_output(design.name(), &args.surface)],
         given => given.to_vec(),
     };
-    let supports = match (supports, again) {
-        (None, Some(before)) if is_same(&run, &before) => before.supports,
-        (supports, _) => {
-            let (surface, _) = pipeline::surface(&model, &run.recipe, job)?;
-            supports.unwrap_or(Supports::Boundary).nodes(&run.grid, &surface)?
+    match (supports, again) {
+        (Some(supports), _) => design.support(&supports)?,
+        (None, Some(before)) if before.nodes == design.document.nodes => {
+            design.document.supports = before.supports;
         }
-    };
-    let document = Document::of_run(&run, reference, supports);
-    let file = GridFile { document: &document, schedule: &run.schedule, structure: &structure };
-    let (mut wrote, written) = handover::write_all(&outputs, &file, job);
+        (None, _) => {}
+    }
+    design.structure = structure;
+    let (mut wrote, written) = handover::write_all(&outputs, &design, job);
     let mut reported = Ok(());
     if let Some(path) = &args.report {
-        let page = report::page(&Subject::of_run(&run, &document), Some(&run));
-        reported = report::write(path, &page);
+        reported = report::write(path, &report::page(&design));
         if reported.is_ok() {
             wrote.push(format!("wrote {}", path.display()));
         }
@@ -66,11 +62,12 @@ pub fn run(args: &Generate, work: &Work) -> Result<Outcome, Failure> {
     work.told();
     handover::all_or_told(&wrote, [written, reported])?;
     let wrote = wrote.join("\n");
+    let run = design.run.as_deref().expect("it was made here");
     if args.json {
-        say::json(&run)?;
+        say::json(run)?;
         say::note(&wrote);
     } else {
-        say::result(&(table::run(&run) + &wrote + "\n"))?;
+        say::result(&(table::run(run) + &wrote + "\n"))?;
     }
     for part in &run.failed {
         say::note(&format!("warning: {}", part.told()));
@@ -95,14 +92,10 @@ fn again(surface: &str, job: &Job) -> Result<Option<Document>, Failure> {
     Ok(Some(document))
 }
 
-fn is_same(run: &Run, before: &Document) -> bool {
-    run.grid.xyz.iter().map(|&p| run.origin.world(p).to_array()).eq(before.nodes.iter().copied())
-}
-
 /// `<name>.obj` in the current folder, or `<name>-grid.obj` where that is the surface's own file.
-fn default_output(run: &Run, surface: &str) -> PathBuf {
+fn default_output(name: &str, surface: &str) -> PathBuf {
     let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
-    let name: String = run.surface.name.chars().map(plain).collect();
+    let name: String = name.chars().map(plain).collect();
     let name = if name.is_empty() { "grid" } else { &name };
     let path = PathBuf::from(format!("{name}.obj"));
     match (path.canonicalize(), Path::new(surface).canonicalize()) {

@@ -4,7 +4,8 @@ use crate::args::Handover;
 use crate::failure::Failure;
 use crate::say;
 use gridshell::Error;
-use gridshell::io::{self, GridFile};
+use gridshell::design::Design;
+use gridshell::io;
 use gridshell::job::Job;
 use gridshell::structure::{Material, Structure, Supports};
 use std::path::{Path, PathBuf};
@@ -39,12 +40,12 @@ pub fn check_output(path: &Path) -> Result<(), Failure> {
 /// others from being written.
 pub fn write_all(
     outputs: &[PathBuf],
-    file: &GridFile,
+    design: &Design,
     job: &Job,
 ) -> (Vec<String>, Result<(), Failure>) {
     let (mut wrote, mut failed) = (Vec::new(), Vec::new());
     for path in outputs {
-        match io::write(path, file, job) {
+        match design.write(path, job) {
             Ok(files) => wrote.extend(files.iter().map(|p| format!("wrote {}", p.display()))),
             Err(e @ (Error::Stopped { .. } | Error::Memory(_))) => {
                 failed.push(Err(e.into()));

@@ -19,7 +19,6 @@ mod report;
 mod say;
 #[cfg(feature = "studio")]
 mod studio;
-mod subject;
 mod surfaces;
 mod table;
 mod threads;

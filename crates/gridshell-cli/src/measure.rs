@@ -4,7 +4,6 @@ use crate::Outcome;
 use crate::args::Measure;
 use crate::failure::Failure;
 use crate::progress::Work;
-use crate::subject::Measured;
 use crate::{open, report, say, table};
 use gridshell::run::SurfaceSummary;
 use gridshell::schedule::Figures;
@@ -28,19 +27,18 @@ struct Document<'a> {
     /// Whether it keeps all that is promised of every grid.
     valid: bool,
     faults: &'a [Fault],
-    warnings: Vec<String>,
+    warnings: &'a [String],
 }
 
 pub fn run(args: &Measure, work: &Work) -> Result<Outcome, Failure> {
     let job = &work.job;
     args.report.as_deref().map_or(Ok(()), report::check)?;
-    let measured = Measured::new(open::open(&args.grid, job)?, job)?;
-    let subject = measured.subject();
-    let (name, quality, figures) = (subject.name(), subject.quality, &subject.schedule.figures);
+    let design = open::open(&args.grid, job)?;
+    let (quality, figures) = (&design.quality, &design.schedule.figures);
     work.told();
     let mut reported = Ok(());
     if let Some(path) = &args.report {
-        reported = report::write(path, &report::page(&subject, None));
+        reported = report::write(path, &report::page(&design));
         if reported.is_ok() {
             say::note(&format!("wrote {}", path.display()));
         }
@@ -50,21 +48,20 @@ pub fn run(args: &Measure, work: &Work) -> Result<Outcome, Failure> {
             schema: "gridshell.measure/1",
             version: env!("CARGO_PKG_VERSION"),
             units: "m",
-            grid: name,
-            surface: measured.summary(),
-            edge_length: subject.edge_length,
-            irregular: irregular_nodes(subject.grid, measured.origin()),
+            grid: design.name(),
+            surface: design.summary.as_ref(),
+            edge_length: design.edge_length,
+            irregular: irregular_nodes(&design.grid, design.surface.origin),
             quality,
             figures,
-            valid: measured.validity().is_valid(),
-            faults: &measured.validity().faults,
-            warnings: measured.validity().warnings(),
+            valid: design.faults.is_empty(),
+            faults: &design.faults,
+            warnings: &design.warnings,
         })?;
     } else {
-        let warnings = measured.validity().warnings();
         let warnings =
-            warnings.iter().fold(String::new(), |all, w| all + &format!("warning: {w}\n"));
-        say::result(&(table::grid(name, quality, figures) + &warnings))?;
+            design.warnings.iter().fold(String::new(), |all, w| all + &format!("warning: {w}\n"));
+        say::result(&(table::grid(design.name(), quality, figures) + &warnings))?;
     }
     reported.map(|()| Outcome::Done)
 }

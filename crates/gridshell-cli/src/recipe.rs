@@ -78,7 +78,7 @@ pub fn from_args(args: &Generate, again: Option<&Recipe>, job: &Job) -> Result<R
 }
 
 /// Take over the tolerances that are given.
-pub fn tolerances(recipe: &mut Recipe, alike: &Alike) {
+fn tolerances(recipe: &mut Recipe, alike: &Alike) {
     let measure = &mut recipe.measure;
     measure.length_tolerance = alike.length_tolerance.or(measure.length_tolerance);
     measure.angle_tolerance_deg = alike.angle_tolerance.unwrap_or(measure.angle_tolerance_deg);

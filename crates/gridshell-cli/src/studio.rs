@@ -4,9 +4,8 @@ use crate::Outcome;
 use crate::args::{Limits, Studio};
 use crate::failure::Failure;
 use crate::progress::memory_limit;
-use crate::subject::Subject;
 use crate::{report, say};
-use gridshell_studio::{Error, Options, Redirect, Reported};
+use gridshell_studio::{Error, Options, Redirect};
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -23,7 +22,7 @@ pub fn run(args: &Studio, limits: &Limits) -> Result<Outcome, Failure> {
         log: Arc::new(say::note),
         page: args.page.clone(),
         state: args.state.clone().or_else(state).filter(|_| !args.no_autosave),
-        report: Some(page_of),
+        report: Some(report::page),
     };
     let told = |address: &str| {
         // Who started it needs the address even where nothing reads standard output any more.
@@ -40,11 +39,6 @@ pub fn run(args: &Studio, limits: &Limits) -> Result<Outcome, Failure> {
         Error::Io(e) => Failure::other(e),
     })?;
     Ok(Outcome::Done)
-}
-
-fn page_of(grid: &Reported) -> String {
-    let &Reported { document, grid, schedule, quality, edge_length, run } = grid;
-    report::page(&Subject { document, grid, schedule, quality, edge_length }, run)
 }
 
 /// Where programs of this system keep what they were at; None where the user has no such folder.

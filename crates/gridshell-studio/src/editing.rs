@@ -4,9 +4,7 @@ use crate::message::{Event, Step};
 use gridshell::edit::{Edit, Editor, Effect, Refusal};
 use gridshell::error::{Error, Result};
 use gridshell::job::Job;
-use gridshell::pipeline;
-use gridshell::recipe::Recipe;
-use gridshell::surface::{Model, Origin, Surface};
+use gridshell::surface::Origin;
 use serde_json::Value;
 
 /// Suggestions made.
@@ -14,14 +12,6 @@ const SUGGESTED: usize = 8;
 
 /// A change of merit beyond this is one from or to a grid without irregularity and disfluency.
 const BOUNDLESS: f64 = 1e6;
-
-/// The surface that grids of this recipe lie on.
-///
-/// # Errors
-/// What making it anew says.
-pub fn surface(model: &Model, recipe: &Recipe, job: &Job) -> Result<Surface> {
-    Ok(pipeline::surface(model, recipe, job)?.0)
-}
 
 /// The edit that the page means, which draws a surface of this origin.
 ///

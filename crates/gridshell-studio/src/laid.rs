@@ -7,22 +7,17 @@
 //!
 //! So whatever looks, picks, weighs, writes or greets works with a picture that stays as it is, and waits for no edit.
 
-use crate::aside::aside;
 use crate::editing;
 use crate::message::{Event, RunSummary};
 use crate::opened::Opened;
+use gridshell::design::Design;
 use gridshell::edit::{Editor, Log};
 use gridshell::error::Result;
 use gridshell::grid::Grid;
-use gridshell::io::{Document, Reference};
 use gridshell::job::Job;
-use gridshell::recipe::{Effort, Recipe};
-use gridshell::reopen;
-use gridshell::run::Run;
-use gridshell::schedule::{Schedule, Tolerances};
+use gridshell::recipe::Effort;
 use gridshell::stages::measure::{Quality, measure};
 use gridshell::surface::Surface;
-use serde_json::Value;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -32,19 +27,10 @@ pub struct Laid {
     pub number: u32,
     /// What it lies on.
     pub opened: Arc<Opened>,
-    /// The run that made it; None for a grid from a file.
-    pub run: Option<Run>,
-    /// The grid as it was before it was edited here.
-    pub document: Document,
-    /// The run's recipe, else the default one.
-    pub recipe: Recipe,
-    /// Wanted member length, metres.
-    pub edge_length: f64,
-    /// What the user should know.
-    pub notes: Vec<String>,
+    /// The design as it was before it was edited here.
+    pub design: Design,
     /// Where it comes from, where no run ended with it: `from a file`.
     pub origin: Option<String>,
-    surface: Mutex<Option<Arc<Surface>>>,
     editor: Mutex<Option<Editor>>,
     now: Mutex<Arc<Now>>,
     /// The version that is on a disk of the user's, or can be made again from what is.
@@ -65,58 +51,37 @@ pub struct Now {
     pub history: Event,
     /// The edits of this session as they stand in logs; None before the first.
     log: Option<Log>,
-    /// What it lies on, where an edit changed that.
-    surface: Option<Arc<Surface>>,
+    /// What it lies on: edits of guides change that.
+    surface: Arc<Surface>,
     /// An editor of its own, to weigh edits on.
     trial: OnceLock<Arc<Editor>>,
 }
 
-/// A grid as it goes into files.
-pub struct Finished {
-    /// With its history.
-    pub document: Document,
-    /// The grid.
-    pub grid: Grid,
-    /// Its nodes, members and panels one by one.
-    pub schedule: Schedule,
-    /// Its measures.
-    pub quality: Quality,
-    /// Which change it is after.
-    pub version: u32,
-}
-
 impl Laid {
-    /// Keep what came of run `number`, supported at its boundary.
-    pub fn of_run(number: u32, run: Run, opened: Arc<Opened>, origin: Option<String>) -> Laid {
-        let mesh = &run.grid.mesh;
-        let border = mesh.vertices().filter(|&v| mesh.is_boundary(v)).collect();
-        let reference = opened.reference.clone();
-        let own = Reference::Builtin(run.surface.name.clone());
-        let document = Document {
-            surface: reference.clone(),
-            ..Document::of_run(&run, reference.unwrap_or(own), border)
-        };
+    /// Keep what came of run `number`.
+    pub fn of_run(
+        number: u32,
+        design: Design,
+        opened: Arc<Opened>,
+        origin: Option<String>,
+    ) -> Laid {
         let now = Now {
             version: 0,
-            grid: Arc::new(run.grid.clone()),
-            quality: run.quality.clone(),
-            history: editing::history(number, &document.edits, None),
+            grid: Arc::clone(&design.grid),
+            quality: design.quality.clone(),
+            history: editing::history(number, &design.document.edits, None),
             log: None,
-            surface: None,
+            surface: Arc::clone(&design.surface),
             trial: OnceLock::new(),
         };
         // What a person chose among candidates is not made again by a run.
         let safe = origin.is_none().then_some(0);
+        let design = design.referring_to(opened.reference.clone());
         Laid {
             number,
             opened,
-            document,
-            recipe: run.recipe.clone(),
-            edge_length: run.edge_length,
-            notes: run.warnings.clone(),
+            design,
             origin,
-            run: Some(run),
-            surface: Mutex::default(),
             editor: Mutex::default(),
             now: Mutex::new(Arc::new(now)),
             safe: Mutex::new(safe),
@@ -126,21 +91,14 @@ impl Laid {
     }
 
     /// Keep a grid that was read from a file of the user's under `number`.
-    pub fn of_file(number: u32, read: reopen::Opened, opened: Arc<Opened>) -> Laid {
-        let reopen::Opened { document, grid, surface, edge_length, recipe, notes, .. } = read;
-        let surface = Arc::new(surface);
-        let editor = Editor::new(Arc::clone(&surface), grid, recipe.clone(), edge_length);
-        let now = Now::of(0, number, &document, &editor, edge_length, &recipe);
+    pub fn of_file(number: u32, design: Design, opened: Arc<Opened>) -> Laid {
+        let editor = design.edit();
+        let now = Now::of(0, number, &design, &editor);
         Laid {
             number,
             opened,
-            run: None,
-            document,
-            recipe,
-            edge_length,
-            notes,
+            design,
             origin: Some("from a file".to_owned()),
-            surface: Mutex::new(Some(surface)),
             editor: Mutex::new(Some(editor)),
             now: Mutex::new(Arc::new(now)),
             safe: Mutex::new(Some(0)),
@@ -181,7 +139,7 @@ impl Laid {
 
     /// Whether it is a draft.
     pub fn is_draft(&self) -> bool {
-        self.run.is_some() && self.recipe.effort == Effort::Draft
+        self.design.run.is_some() && self.design.recipe.effort == Effort::Draft
     }
 
     /// Note when it was looked at: `at` grows.
@@ -197,11 +155,12 @@ impl Laid {
     /// In one line.
     pub fn summary(&self) -> RunSummary {
         let now = self.now();
-        let effort = format!("{:?}", self.recipe.effort).to_lowercase();
-        let seed = self.document.seed.map(|seed| format!("{effort}, seed {seed}"));
+        let effort = format!("{:?}", self.design.recipe.effort).to_lowercase();
+        let seed = self.design.document.seed.map(|seed| format!("{effort}, seed {seed}"));
         let by: Vec<String> = seed.into_iter().chain(self.origin.clone()).collect();
         let by = by.join(", ");
-        let edits = self.document.edits.len() + now.log.as_ref().map_or(0, |log| log.edits.len());
+        let edits =
+            self.design.document.edits.len() + now.log.as_ref().map_or(0, |log| log.edits.len());
         let edited = match edits {
             0 => String::new(),
             1 => ", 1 edit".into(),
@@ -209,8 +168,8 @@ impl Laid {
         };
         RunSummary {
             run: self.number,
-            title: self.document.name.clone(),
-            detail: format!("{:.3} m, {by}{edited}", self.edge_length),
+            title: self.design.document.name.clone(),
+            detail: format!("{:.3} m, {by}{edited}", self.design.edge_length),
             nodes: now.quality.nodes as u32,
             fluency: now.quality.fluency,
             irregular: (now.quality.irregular.interior + now.quality.irregular.boundary) as u32,
@@ -219,37 +178,17 @@ impl Laid {
     }
 
     /// An editor with the grid as it is, to weigh edits on: no change waits for it, nor it for one.
-    ///
-    /// # Errors
-    /// What making the surface anew says.
-    pub fn trial(&self) -> Result<Arc<Editor>> {
+    pub fn trial(&self) -> Arc<Editor> {
         self.trial_of(&self.now())
     }
 
-    fn trial_of(&self, now: &Now) -> Result<Arc<Editor>> {
-        if let Some(trial) = now.trial.get() {
-            return Ok(Arc::clone(trial));
-        }
-        let surface = match &now.surface {
-            Some(surface) => Arc::clone(surface),
-            None => self.surface(&Job::default())?,
-        };
+    fn trial_of(&self, now: &Now) -> Arc<Editor> {
         let trial = now.trial.get_or_init(|| {
-            let grid = (*now.grid).clone();
-            Arc::new(Editor::new(surface, grid, self.recipe.clone(), self.edge_length))
+            let (surface, grid) = (Arc::clone(&now.surface), (*now.grid).clone());
+            let (recipe, length) = (self.design.recipe.clone(), self.design.edge_length);
+            Arc::new(Editor::new(surface, grid, recipe, length))
         });
-        Ok(Arc::clone(trial))
-    }
-
-    /// The surface that it was laid on, made when it is first asked for.
-    fn surface(&self, job: &Job) -> Result<Arc<Surface>> {
-        let mut surface = held(&self.surface);
-        if let Some(surface) = &*surface {
-            return Ok(Arc::clone(surface));
-        }
-        let made = Arc::new(aside(|| editing::surface(&self.opened.model, &self.recipe, job))?);
-        *surface = Some(Arc::clone(&made));
-        Ok(made)
+        Arc::clone(trial)
     }
 
     /// Change the grid; what it was is seen until that is done. `job` is that of `work`.
@@ -263,54 +202,42 @@ impl Laid {
     ) -> Result<()> {
         let mut editor = held(&self.editor);
         let _changing = Changing::begin(&self.changing);
-        let editor = match &mut *editor {
-            Some(editor) => editor,
-            none => {
-                let (surface, grid) = (self.surface(job)?, (*self.grid()).clone());
-                none.insert(Editor::new(surface, grid, self.recipe.clone(), self.edge_length))
-            }
-        };
+        let editor = editor.get_or_insert_with(|| self.design.edit());
         work(editor, job)?;
         let (version, number) = (self.now().version + 1, self.number);
-        let (length, recipe) = (self.edge_length, &self.recipe);
-        let now = Now::of(version, number, &self.document, editor, length, recipe);
+        let now = Now::of(version, number, &self.design, editor);
         *held(&self.now) = Arc::new(now);
         Ok(())
     }
 
     /// The log of this session's edits.
-    ///
-    /// # Errors
-    /// As [`Laid::trial`].
-    pub fn log(&self) -> Result<Log> {
+    pub fn log(&self) -> Log {
         let now = self.now();
-        match &now.log {
-            Some(log) => Ok(log.clone()),
-            None => Ok(self.trial_of(&now)?.log()),
-        }
+        now.log.clone().unwrap_or_else(|| self.trial_of(&now).log())
     }
 
-    /// The grid as it is, numbered without gaps.
+    /// What the user should know of it.
+    pub fn notes(&self) -> Vec<String> {
+        [&*self.design.notes, &self.design.warnings].concat()
+    }
+
+    /// The design as it is, numbered without gaps, and which change it is after.
     ///
     /// # Errors
-    /// As [`Laid::trial`].
-    pub fn finished(&self) -> Result<Finished> {
+    /// As [`Design::edited`].
+    pub fn finished(&self) -> Result<(Design, u32)> {
         let now = self.now();
-        let (version, quality) = (now.version, now.quality.clone());
-        if let (None, Some(run)) = (&now.log, &self.run) {
-            let document = self.document.clone();
-            let (grid, schedule) = (run.grid.clone(), run.schedule.clone());
-            return Ok(Finished { document, grid, schedule, quality, version });
-        }
-        let trial = self.trial_of(&now)?;
-        let grid = trial.finished();
-        let tolerances = Tolerances::from(&self.recipe.measure);
-        let schedule = Schedule::new(&grid, trial.surface(), &tolerances);
-        let done = now.log.iter().flat_map(|log| &log.edits).map(|edit| serde_json::json!(edit));
-        let edits: Vec<Value> = self.document.edits.iter().cloned().chain(done).collect();
-        let panels = schedule.panels.nodes.clone();
-        let document = Document { panels, edits, ..reopen::edited(&self.document, &trial) };
-        Ok(Finished { document, grid, schedule, quality, version })
+        let design = match &now.log {
+            None => self.design.clone(),
+            Some(log) => {
+                let mut design = self.design.edited(&self.trial_of(&now), &Job::default())?;
+                let done = log.edits.iter().map(|edit| serde_json::json!(edit));
+                design.document.edits =
+                    self.design.document.edits.iter().cloned().chain(done).collect();
+                design
+            }
+        };
+        Ok((design, now.version))
     }
 }
 
@@ -331,24 +258,17 @@ impl Drop for Changing<'_> {
 }
 
 impl Now {
-    /// What an editor's grid is.
-    fn of(
-        version: u32,
-        run: u32,
-        document: &Document,
-        editor: &Editor,
-        edge_length: f64,
-        recipe: &Recipe,
-    ) -> Now {
-        let (grid, surface, options) = (editor.finished(), editor.surface(), &recipe.measure);
-        let quality = measure(&grid, surface, edge_length, options);
+    /// What the grid of an editor of this design is.
+    fn of(version: u32, run: u32, design: &Design, editor: &Editor) -> Now {
+        let (grid, surface) = (editor.finished(), editor.surface());
+        let quality = measure(&grid, surface, design.edge_length, &design.recipe.measure);
         Now {
             version,
             grid: Arc::new(editor.grid().clone()),
             quality,
-            history: editing::history(run, &document.edits, Some(editor)),
+            history: editing::history(run, &design.document.edits, Some(editor)),
             log: Some(editor.log()),
-            surface: Some(Arc::clone(editor.surface())),
+            surface: Arc::clone(editor.surface()),
             trial: OnceLock::new(),
         }
     }
@@ -363,33 +283,26 @@ fn held<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
 pub mod tests {
     use super::*;
     use gridshell::edit::Edit;
-    use gridshell::pipeline;
+    use gridshell::io::Document;
+    use gridshell::recipe::Recipe;
 
     /// The grid of a square, as if from a file.
     pub fn square(number: u32) -> Laid {
         let (grid, surface) = crate::measures::tests::square();
         let document = Document::of_grid("square", &grid, surface.origin);
         let opened = Arc::new(Opened::alone(&document, &Job::default()).unwrap());
-        let read = reopen::Opened {
-            document,
-            grid,
-            surface,
-            summary: None,
-            edge_length: 1.0,
-            recipe: Recipe::default(),
-            notes: Vec::new(),
-            losses: Vec::new(),
-        };
-        Laid::of_file(number, read, opened)
+        let document = Document { edge_length: Some(1.0), ..document };
+        let design = Design::restore(document, None, &Job::default()).unwrap();
+        Laid::of_file(number, design, opened)
     }
 
     /// A coarse draft on the built-in hexagon, told to be of this effort.
     pub fn hexagon(number: u32, effort: Effort) -> Laid {
         let opened = Opened::built_in("hexagon", &Job::default()).unwrap();
         let recipe = Recipe { edge_length: Some(2.0), effort: Effort::Draft, ..Recipe::default() };
-        let mut run = pipeline::generate(&opened.model, &recipe, &Job::default()).unwrap();
-        run.recipe.effort = effort;
-        Laid::of_run(number, run, Arc::new(opened), None)
+        let mut design = Design::generate(&opened.model, &recipe, &Job::default()).unwrap();
+        design.recipe.effort = effort;
+        Laid::of_run(number, design, Arc::new(opened), None)
     }
 
     /// Pin a node.
@@ -410,7 +323,7 @@ pub mod tests {
         assert!(!laid.unsaved(), "it is in the file that it came from");
         pin(&laid, MIDDLE);
         assert!(laid.unsaved());
-        let version = laid.finished().unwrap().version;
+        let version = laid.finished().unwrap().1;
         pin(&laid, MIDDLE + 1);
         assert!(!laid.saved(version), "the grid has changed since");
         assert!(laid.unsaved());
@@ -432,14 +345,14 @@ pub mod tests {
             editor.apply(Edit::Pin { node: MIDDLE }).unwrap();
             // On this very thread: whatever waited for the change would never come.
             assert!(laid.unsaved(), "it is being changed");
-            assert_eq!(laid.finished().unwrap().document.nodes, before.document.nodes);
-            assert!(laid.log().unwrap().edits.is_empty());
-            assert!(laid.trial().unwrap().history().next().is_none());
+            assert_eq!(laid.finished().unwrap().0.document.nodes, before.0.document.nodes);
+            assert!(laid.log().edits.is_empty());
+            assert!(laid.trial().history().next().is_none());
             assert!(!laid.summary().detail.contains("edit"));
             Ok(())
         })
         .unwrap();
-        assert_eq!(laid.finished().unwrap().document.edits.len(), 1);
+        assert_eq!(laid.finished().unwrap().0.document.edits.len(), 1);
         assert!(laid.summary().detail.ends_with(", 1 edit"));
     }
 
@@ -448,7 +361,7 @@ pub mod tests {
     fn a_grid_is_written_as_its_editor_has_it() {
         let laid = hexagon(1, Effort::Draft);
         let members: Vec<(u32, u32)> = {
-            let mesh = &laid.run.as_ref().unwrap().grid.mesh;
+            let mesh = &laid.design.grid.mesh;
             mesh.edges().filter(|&(a, _)| !mesh.is_boundary(a)).take(3).collect()
         };
         for (a, b) in members {
@@ -456,17 +369,20 @@ pub mod tests {
             let split = |editor: &mut Editor, _: &Job| {
                 let _ = editor.apply(Edit::Split { nodes: [a, b] });
                 let _ = editor.apply(Edit::Flip { nodes: [a, b] });
-                told = Some((reopen::edited(&laid.document, editor), editor.log()));
+                told = Some((
+                    laid.design.edited(editor, &Job::default()).unwrap().document,
+                    editor.log(),
+                ));
                 Ok(())
             };
             laid.change(&Job::default(), split).unwrap();
             let (document, log) = told.unwrap();
-            let finished = laid.finished().unwrap().document;
+            let finished = laid.finished().unwrap().0.document;
             assert_eq!(finished.edits, document.edits);
             assert_eq!(finished.nodes, document.nodes);
             assert_eq!(finished.supports, document.supports);
             assert_eq!(finished.features, document.features);
-            assert_eq!(laid.log().unwrap(), log);
+            assert_eq!(laid.log(), log);
         }
     }
 }

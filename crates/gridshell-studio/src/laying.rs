@@ -6,8 +6,8 @@ use crate::message::{Event, Progress, Shows};
 use crate::opened::Opened;
 use crate::scene;
 use gridshell::Error;
+use gridshell::design::Design;
 use gridshell::job::{self, Job, Picture};
-use gridshell::pipeline;
 use gridshell::recipe::{Effort, Recipe, RegularizeMethod};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, ThreadId};
@@ -135,8 +135,8 @@ fn lay(
             watcher.see(p, &shown_on, &told_in, began);
         }
     });
-    let run = pipeline::generate(&opened.model, recipe, &watched)?;
-    desk.keep(Laid::of_run(number, run, Arc::clone(opened), None));
+    let design = Design::generate(&opened.model, recipe, &watched)?;
+    desk.keep(Laid::of_run(number, design, Arc::clone(opened), None));
     Ok(number)
 }
 

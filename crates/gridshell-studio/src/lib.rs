@@ -37,7 +37,7 @@ mod session;
 mod tab;
 mod told;
 
-pub use export::{Report, Reported};
+pub use export::Report;
 pub use redirect::Redirect;
 pub use server::Log;
 pub use tab::Tab;

@@ -12,16 +12,16 @@ const BINS: usize = 24;
 
 /// All about a grid that is kept, as it is now.
 pub fn told(summary: RunSummary, laid: &Laid, now: &Now) -> RunInfo {
-    let run = laid.run.as_ref();
+    let run = laid.design.run.as_deref();
     RunInfo {
         summary,
-        edge_length: laid.edge_length,
+        edge_length: laid.design.edge_length,
         stopped: run.is_some_and(|r| r.stopped),
-        measures: measures(&now.quality, laid.edge_length),
+        measures: measures(&now.quality, laid.design.edge_length),
         histograms: histograms(&now.grid, &laid.opened.sketch),
         stages: run.iter().flat_map(|r| &r.stages).map(stage).collect(),
         candidates: run.iter().flat_map(|r| &r.candidates).map(candidate).collect(),
-        warnings: laid.notes.clone(),
+        warnings: laid.notes(),
     }
 }
 

@@ -5,21 +5,24 @@
 //! out, with every stage's grid and measures:
 //!
 //! ```
-//! use gridshell::{io, job::Job, pipeline, recipe::Recipe};
+//! use gridshell::{design::Design, io, job::Job, recipe::Recipe};
+//! # let folder = tempfile::tempdir()?;
+//! # let path = folder.path().join("hexagon.ifc");
 //!
 //! let job = Job::default();
-//! let model = io::open("hexagon", &job)?;
 //! let recipe = Recipe { edge_length: Some(1.0), ..Recipe::default() };
-//! let run = pipeline::generate(&model, &recipe, &job)?;
-//! println!("{} nodes, fluency {:?}", run.quality.nodes, run.quality.fluency);
-//! # assert_eq!(run.quality.euler_characteristic, 1);
-//! # Ok::<(), gridshell::Error>(())
+//! let design = Design::generate(&io::open("hexagon", &job)?, &recipe, &job)?;
+//! println!("{} nodes, fluency {:?}", design.quality.nodes, design.quality.fluency);
+//! design.write(&path, &job)?;
+//! # assert!(std::fs::read_to_string(path)?.contains("IFCMEMBER"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! - [`io::open`] reads a file or takes a built-in surface by its name: a [`surface::Model`].
 //! - [`recipe::Recipe`] holds all options; [`recipe::Recipe::named`] gives the method as printed.
 //! - [`job::Job`] tells of progress, and stops a run from any thread or after a time.
-//! - [`run::Run`] is what comes out; serialised, it is the document that the command prints.
+//! - [`design::Design`] is the finished grid with all that is known of it: it opens, edits, measures and writes.
+//! - [`run::Run`] tells how it was made; serialised, it is the document that the command prints.
 //! - [`stages::measure::measure`] measures any grid; [`grid::Grid::from_panels`] takes one from elsewhere.
 //!
 //! The same surface, recipe and seed give the same grid, bit for bit, whatever the machine and the number of
@@ -28,6 +31,7 @@
 pub mod balance;
 pub mod bubbles;
 pub mod degree;
+pub mod design;
 pub mod edit;
 pub mod error;
 pub mod grid;
@@ -39,7 +43,6 @@ pub mod merit;
 pub mod mesh;
 pub mod pipeline;
 pub mod recipe;
-pub mod reopen;
 pub mod run;
 pub mod schedule;
 pub mod stages;

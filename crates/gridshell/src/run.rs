@@ -13,6 +13,7 @@ use crate::validity::{self, Fault};
 use crate::words;
 use glam::DVec3;
 use serde::Serialize;
+use std::sync::Arc;
 
 /// Name and version of the run document.
 pub const SCHEMA: &str = "gridshell.run/1";
@@ -66,10 +67,10 @@ pub struct Run {
     pub origin: Origin,
     /// The final grid.
     #[serde(skip)]
-    pub grid: Grid,
+    pub grid: Arc<Grid>,
     /// Its nodes, members and panels one by one.
     #[serde(skip)]
-    pub schedule: Schedule,
+    pub schedule: Arc<Schedule>,
 }
 
 impl Run {

@@ -1,9 +1,9 @@
 //! What the colours of a grid mean: the one place that sheets, reports and viewers have it from.
 
 use super::drawing::Rgb;
-use crate::subject::Subject;
 use clap::ValueEnum;
 use gridshell::degree::REGULAR;
+use gridshell::design::Design;
 
 /// What is shown by colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -72,8 +72,8 @@ const DEGREES: [Rgb; 5] = [
 
 impl Colours {
     /// The colours of this grid.
-    pub fn new(coloring: Coloring, subject: &Subject) -> Colours {
-        let schedule = subject.schedule;
+    pub fn new(coloring: Coloring, design: &Design) -> Colours {
+        let schedule = &design.schedule;
         let mut colours = Colours {
             scale: None,
             members: vec![None; schedule.members.ends.len()],
@@ -82,10 +82,10 @@ impl Colours {
         };
         match coloring {
             Coloring::None => {}
-            Coloring::Length => colours.lengths(subject),
-            Coloring::Disfluency => colours.bends(subject),
-            Coloring::Shape => colours.shapes(subject),
-            Coloring::Degree => colours.degrees(subject),
+            Coloring::Length => colours.lengths(design),
+            Coloring::Disfluency => colours.bends(design),
+            Coloring::Shape => colours.shapes(design),
+            Coloring::Degree => colours.degrees(design),
         }
         colours
     }
@@ -95,8 +95,8 @@ impl Colours {
         self.scale.as_ref()?.steps.get(usize::from(step?)).copied()
     }
 
-    fn lengths(&mut self, subject: &Subject) {
-        let (lengths, wanted) = (&subject.schedule.members.length, subject.edge_length);
+    fn lengths(&mut self, design: &Design) {
+        let (lengths, wanted) = (&design.schedule.members.length, design.edge_length);
         let off = lengths.iter().map(|l| (l - wanted).abs());
         let half = most_within(off.collect()).clamp(LEAST_SPREAD * wanted, 0.9 * wanted);
         let steps = blended(&[SHORT, WANTED, LONG]);
@@ -113,8 +113,8 @@ impl Colours {
             Some(Scale::new("Length of members, m", steps, labels.to_vec(), &self.members));
     }
 
-    fn bends(&mut self, subject: &Subject) {
-        let bends = &subject.schedule.members.bend_deg;
+    fn bends(&mut self, design: &Design) {
+        let bends = &design.schedule.members.bend_deg;
         let most = most_within(bends.iter().flatten().copied().collect()).max(LEAST_BEND);
         let steps = blended(&[SMOOTH, BENT, BROKEN]);
         let labels = [
@@ -127,8 +127,8 @@ impl Colours {
         self.scale = Some(Scale::new(title, steps, labels.to_vec(), &self.members));
     }
 
-    fn shapes(&mut self, subject: &Subject) {
-        let shapes = &subject.schedule.panels.shape;
+    fn shapes(&mut self, design: &Design) {
+        let shapes = &design.schedule.panels.shape;
         let off = most_within(shapes.iter().map(|q| 1.0 - q).collect());
         let from = (1.0 - off).min(LEAST_SHAPE);
         let steps = blended(&[BROKEN, BENT, EQUILATERAL]);
@@ -143,9 +143,9 @@ impl Colours {
         self.scale = Some(Scale::new(title, steps, labels.to_vec(), &self.panels));
     }
 
-    fn degrees(&mut self, subject: &Subject) {
+    fn degrees(&mut self, design: &Design) {
         let step = |&d: &i32| (d - REGULAR + 2).clamp(0, 4) as u8;
-        self.nodes = subject.schedule.nodes.adjusted_degree.iter().map(|d| Some(step(d))).collect();
+        self.nodes = design.schedule.nodes.adjusted_degree.iter().map(|d| Some(step(d))).collect();
         let names = ["4 or fewer", "5", "6", "7", "8 or more"];
         let labels = (0..5).map(|k| ((k as f64 + 0.5) / 5.0, names[k].to_owned())).collect();
         let title = "Members at nodes (at the border: with those that lack)";

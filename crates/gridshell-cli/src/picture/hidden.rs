@@ -1,6 +1,6 @@
 //! What is hidden behind panels.
 
-use crate::subject::Subject;
+use gridshell::design::Design;
 
 /// Panels as the camera sees them, sorted into the squares of a raster.
 pub struct Cover<'a> {
@@ -24,9 +24,9 @@ const MOST: usize = 1000;
 
 impl<'a> Cover<'a> {
     /// The panels of a grid whose nodes are seen at these places.
-    pub fn new(subject: &'a Subject, seen: &'a [[f64; 3]]) -> Cover<'a> {
-        let panels = &subject.schedule.panels.nodes;
-        let mean = subject.schedule.figures.length.spread.mean;
+    pub fn new(design: &'a Design, seen: &'a [[f64; 3]]) -> Cover<'a> {
+        let panels = &design.schedule.panels.nodes;
+        let mean = design.schedule.figures.length.spread.mean;
         let least = |k: usize| seen.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
         let most = |k: usize| seen.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
         let low = [least(0), least(1)];

@@ -8,9 +8,9 @@ use super::glyphs;
 use super::hidden::Cover;
 use super::scene::{INK, PAPER};
 use super::view::Camera;
-use crate::subject::Subject;
 use clap::ValueEnum;
 use gridshell::degree::REGULAR;
+use gridshell::design::Design;
 use gridshell::math::trig;
 
 /// What is written on the elements.
@@ -40,7 +40,7 @@ const SHORTER: usize = 20;
 
 /// What all labels of one view share.
 struct Writing<'a> {
-    subject: &'a Subject<'a>,
+    design: &'a Design,
     /// Places of the nodes on the paper.
     places: Vec<[f64; 2]>,
     /// Lengths of the members on the paper.
@@ -57,7 +57,7 @@ struct Writing<'a> {
 
 /// Write the numbers that are asked for, at most in this size.
 pub fn draw(
-    subject: &Subject,
+    design: &Design,
     labels: &[Labels],
     colours: &Colours,
     camera: &Camera,
@@ -65,11 +65,11 @@ pub fn draw(
     largest: f64,
     drawing: &mut Drawing,
 ) {
-    let schedule = subject.schedule;
+    let schedule = &design.schedule;
     let seen: Vec<[f64; 3]> = schedule.nodes.xyz.iter().map(|&p| camera.see(p)).collect();
     let places = seen.iter().map(|&s| frame.place(s)).collect();
-    let writing = Writing::new(subject, labels, places, largest);
-    let cover = Cover::new(subject, &seen);
+    let writing = Writing::new(design, labels, places, largest);
+    let cover = Cover::new(design, &seen);
     let middle = |nodes: &[u32]| {
         let all = nodes.iter().map(|&v| seen[v as usize]);
         let sum = all.fold([0.0; 3], |s, p| [s[0] + p[0], s[1] + p[1], s[2] + p[2]]);
@@ -98,12 +98,12 @@ pub fn draw(
 
 impl<'a> Writing<'a> {
     fn new(
-        subject: &'a Subject<'a>,
+        design: &'a Design,
         labels: &[Labels],
         places: Vec<[f64; 2]>,
         largest: f64,
     ) -> Writing<'a> {
-        let schedule = subject.schedule;
+        let schedule = &design.schedule;
         let apart = |a: u32, b: u32| {
             let [a, b] = [places[a as usize], places[b as usize]];
             ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt()
@@ -127,7 +127,7 @@ impl<'a> Writing<'a> {
         sorted.sort_by(f64::total_cmp);
         let usual = sorted.get(sorted.len() * SHORTER / 100).copied().unwrap_or(0.0);
         let mut writing =
-            Writing { subject, places, lengths, radii, node, member, panel, size: f64::INFINITY };
+            Writing { design, places, lengths, radii, node, member, panel, size: f64::INFINITY };
         // The radius of the circle in an equilateral triangle over its side.
         let radius = 0.75f64.sqrt() / 3.0;
         writing.size = writing.along(usual).min(writing.within(radius * usual)).min(largest);
@@ -189,7 +189,7 @@ impl<'a> Writing<'a> {
         if !self.is_large_enough(size) {
             return;
         }
-        let nodes = &self.subject.schedule.nodes;
+        let nodes = &self.design.schedule.nodes;
         let few = nodes.adjusted_degree[v] < REGULAR;
         let plain = if few { INK } else { PAPER };
         let fill = colours.of(colours.nodes[v]).filter(|_| nodes.is_irregular(v)).unwrap_or(plain);
@@ -206,9 +206,9 @@ impl<'a> Writing<'a> {
 
     /// The size of type that the panels beside each member leave to it.
     fn room_beside_members(&self) -> Vec<f64> {
-        let members = &self.subject.schedule.members;
+        let members = &self.design.schedule.members;
         let mut room = vec![f64::INFINITY; self.lengths.len()];
-        for ([a, b, c], radius) in self.subject.schedule.panels.nodes.iter().zip(&self.radii) {
+        for ([a, b, c], radius) in self.design.schedule.panels.nodes.iter().zip(&self.radii) {
             for (a, b) in [(*a, *b), (*b, *c), (*c, *a)] {
                 let Some(k) = members.between(a, b) else { continue };
                 room[k] = room[k].min(BESIDE * radius);
@@ -220,7 +220,7 @@ impl<'a> Writing<'a> {
     /// The length of the shortest member at each node, on the paper.
     fn shortest(&self) -> Vec<f64> {
         let mut shortest = vec![f64::INFINITY; self.places.len()];
-        for (ends, &length) in self.subject.schedule.members.ends.iter().zip(&self.lengths) {
+        for (ends, &length) in self.design.schedule.members.ends.iter().zip(&self.lengths) {
             for v in ends.map(|v| v as usize) {
                 shortest[v] = shortest[v].min(length);
             }

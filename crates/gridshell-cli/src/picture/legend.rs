@@ -4,7 +4,7 @@ use super::colour::{Coloring, Scale};
 use super::drawing::{Anchor, Drawing};
 use super::frame::round_length;
 use super::scene::{INK, MEMBER, PAPER, support};
-use crate::subject::Subject;
+use gridshell::design::Design;
 
 /// Height of the histogram and of the strip of colours, over the size of type.
 const BARS: f64 = 7.0;
@@ -76,7 +76,7 @@ pub fn strip(
 /// What the marks mean; gives where it ends.
 pub fn marks(
     drawing: &mut Drawing,
-    subject: &Subject,
+    design: &Design,
     coloring: Coloring,
     [x, mut y]: [f64; 2],
     size: f64,
@@ -95,9 +95,9 @@ pub fn marks(
     drawing.line(vec![[x, y], [x + 2.0 * size, y]], 0.3 * size, MEMBER);
     drawing.text([text, y], "boundary, crease or guide", size, INK, Anchor::Start);
     y += line;
-    if !subject.document.supports.is_empty() {
+    if !design.document.supports.is_empty() {
         support([middle, y - 0.5 * size], 0.7 * size, drawing);
-        let supports = format!("support ({})", subject.document.supports.len());
+        let supports = format!("support ({})", design.document.supports.len());
         drawing.text([text, y], &supports, size, INK, Anchor::Start);
         y += line;
     }

@@ -25,8 +25,8 @@ pub mod view;
 pub use light::lit;
 
 use crate::failure::Failure;
-use crate::subject::Subject;
 use drawing::{Drawing, Unit};
+use gridshell::design::Design;
 use gridshell::inspect::Sketch;
 use gridshell::io;
 use std::path::Path;
@@ -50,8 +50,8 @@ pub fn draw(sketch: &Sketch, file: &Path) -> Result<(), Failure> {
 }
 
 /// Draw a sheet of a grid to a file.
-pub fn draw_sheet(subject: &Subject, wish: &sheet::Wish, file: &Path) -> Result<(), Failure> {
-    write(&sheet::sheet(subject, wish), file)
+pub fn draw_sheet(design: &Design, wish: &sheet::Wish, file: &Path) -> Result<(), Failure> {
+    write(&sheet::sheet(design, wish), file)
 }
 
 fn write(drawing: &Drawing, file: &Path) -> Result<(), Failure> {

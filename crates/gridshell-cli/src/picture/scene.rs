@@ -6,7 +6,7 @@ use super::frame::Frame;
 use super::label::Labels;
 use super::light::lit;
 use super::view::{Camera, View};
-use crate::subject::Subject;
+use gridshell::design::Design;
 
 /// One thing to be drawn.
 #[derive(Clone, Copy)]
@@ -58,8 +58,8 @@ impl Style {
 }
 
 /// Places of the nodes as the camera sees them, and all elements from the farthest to the nearest.
-pub fn seen(subject: &Subject, camera: &Camera) -> (Vec<[f64; 3]>, Vec<Item>) {
-    let schedule = subject.schedule;
+pub fn seen(design: &Design, camera: &Camera) -> (Vec<[f64; 3]>, Vec<Item>) {
+    let schedule = &design.schedule;
     let seen: Vec<[f64; 3]> = schedule.nodes.xyz.iter().map(|&p| camera.see(p)).collect();
     let depth = |v: u32| seen[v as usize][2];
     let before = BEFORE * schedule.figures.length.spread.mean;
@@ -80,7 +80,7 @@ pub fn seen(subject: &Subject, camera: &Camera) -> (Vec<[f64; 3]>, Vec<Item>) {
 
 /// Draw a grid.
 pub fn draw(
-    subject: &Subject,
+    design: &Design,
     colours: &Colours,
     view: View,
     camera: &Camera,
@@ -88,13 +88,13 @@ pub fn draw(
     style: &Style,
     drawing: &mut Drawing,
 ) {
-    let schedule = subject.schedule;
+    let schedule = &design.schedule;
     let (members, panels) = (&schedule.members, &schedule.panels);
-    let (seen, items) = seen(subject, camera);
+    let (seen, items) = seen(design, camera);
     let places: Vec<[f64; 2]> = seen.iter().map(|&s| frame.place(s)).collect();
     let place = |v: u32| places[v as usize];
     let shaded = view != View::Plan;
-    let supported = supported(subject);
+    let supported = supported(design);
     for item in items {
         match item {
             Item::Panel(k) => {
@@ -114,7 +114,7 @@ pub fn draw(
                 if supported[v] && style.support > 0.0 {
                     support(places[v], style.support, drawing);
                 }
-                mark(subject, colours, v, places[v], style.node, drawing);
+                mark(design, colours, v, places[v], style.node, drawing);
             }
         }
     }
@@ -122,14 +122,14 @@ pub fn draw(
 
 /// The mark of an irregular node: black for too few members, white for too many, or its colour.
 fn mark(
-    subject: &Subject,
+    design: &Design,
     colours: &Colours,
     v: usize,
     at: [f64; 2],
     radius: f64,
     drawing: &mut Drawing,
 ) {
-    let nodes = &subject.schedule.nodes;
+    let nodes = &design.schedule.nodes;
     if !nodes.is_irregular(v) {
         return;
     }
@@ -145,9 +145,9 @@ pub fn support([x, y]: [f64; 2], size: f64, drawing: &mut Drawing) {
     drawing.line([foot[0], foot[1], foot[2], foot[0]].to_vec(), 0.2 * size, SUPPORT);
 }
 
-fn supported(subject: &Subject) -> Vec<bool> {
-    let mut supported = vec![false; subject.schedule.nodes.xyz.len()];
-    for &v in &subject.document.supports {
+fn supported(design: &Design) -> Vec<bool> {
+    let mut supported = vec![false; design.schedule.nodes.xyz.len()];
+    for &v in &design.document.supports {
         supported[v as usize] = true;
     }
     supported

@@ -8,8 +8,8 @@ use super::scene::{self, INK, Style};
 use super::view::{Camera, View};
 use super::{glyphs, legend, small};
 use crate::facts::facts;
-use crate::subject::Subject;
 use clap::ValueEnum;
+use gridshell::design::Design;
 
 /// What a sheet shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -103,30 +103,30 @@ impl Sheet {
 }
 
 /// Draw a sheet, or a picture where there is no paper.
-pub fn sheet(subject: &Subject, wish: &Wish) -> Drawing {
-    let title = format!("{}: {}", subject.name(), wish.sheet.name().to_lowercase());
-    let Some((paper, f)) = wish.paper.size() else { return small::picture(subject, wish, title) };
+pub fn sheet(design: &Design, wish: &Wish) -> Drawing {
+    let title = format!("{}: {}", design.name(), wish.sheet.name().to_lowercase());
+    let Some((paper, f)) = wish.paper.size() else { return small::picture(design, wish, title) };
     let mut drawing = Drawing::new(paper, Unit::Millimetre, title);
     let inner = [paper[0] - 2.0 * MARGIN * f, paper[1] - 2.0 * MARGIN * f];
     let split = paper[0] - (MARGIN + COLUMN) * f;
     border(&mut drawing, inner, split, f);
 
     let views: Vec<(View, Camera, Extent)> =
-        wish.sheet.views().iter().map(|&v| seen(subject, v)).collect();
+        wish.sheet.views().iter().map(|&v| seen(design, v)).collect();
     let at = [(MARGIN + PAD) * f, (MARGIN + PAD) * f];
     let room = [split - at[0] - PAD * f, inner[1] - (2.0 * PAD + FOOT) * f];
     let cells = cells(&views, at, room, f);
     let scale = 1000.0 / denominator(&views, &cells);
-    let colours = Colours::new(wish.coloring, subject);
-    let member = scale * subject.schedule.figures.length.spread.mean;
+    let colours = Colours::new(wish.coloring, design);
+    let member = scale * design.schedule.figures.length.spread.mean;
     let mut style = Style::of(member, TYPE * f).beside(wish.labels);
     if wish.coloring == Coloring::Degree {
         style.node *= COLOURED_NODES;
     }
     for ((view, camera, extent), cell) in views.iter().zip(&cells) {
         let frame = Frame::centred(extent, scale, cell.at, cell.room);
-        scene::draw(subject, &colours, *view, camera, &frame, &style, &mut drawing);
-        label::draw(subject, wish.labels, &colours, camera, &frame, TYPE * f, &mut drawing);
+        scene::draw(design, &colours, *view, camera, &frame, &style, &mut drawing);
+        label::draw(design, wish.labels, &colours, camera, &frame, TYPE * f, &mut drawing);
         if views.len() > 1 {
             let foot = cell.at[1] + 0.5 * (cell.room[1] + scale * extent.size()[1]);
             let below = [cell.at[0] + 0.5 * cell.room[0], foot + 3.0 * TYPE * f];
@@ -146,13 +146,13 @@ pub fn sheet(subject: &Subject, wish: &Wish) -> Drawing {
             TYPE * f,
         );
     }
-    column(subject, wish, &colours, scale, [split, MARGIN * f], f, &mut drawing);
+    column(design, wish, &colours, scale, [split, MARGIN * f], f, &mut drawing);
     drawing
 }
 
 /// What a view shows.
-pub fn seen(subject: &Subject, view: View) -> (View, Camera, Extent) {
-    let points = &subject.schedule.nodes.xyz;
+pub fn seen(design: &Design, view: View) -> (View, Camera, Extent) {
+    let points = &design.schedule.nodes.xyz;
     let camera = view.camera(points);
     let extent = Extent::of(&camera, points);
     (view, camera, extent)
@@ -233,7 +233,7 @@ fn capital(text: &str) -> String {
 
 /// Legend and figures from the top, the title at the foot.
 fn column(
-    subject: &Subject,
+    design: &Design,
     wish: &Wish,
     colours: &Colours,
     scale: f64,
@@ -247,14 +247,14 @@ fn column(
     if let Some(colours) = &colours.scale {
         y = legend::colours(drawing, colours, [left, y], width, size) + 1.5 * LINE * f;
     }
-    y = legend::marks(drawing, subject, wish.coloring, [left, y], size, LINE * f) + LINE * f;
+    y = legend::marks(drawing, design, wish.coloring, [left, y], size, LINE * f) + LINE * f;
     heading(drawing, "Figures", [left, y], width, f);
     y += 1.4 * LINE * f;
-    for fact in facts(subject) {
+    for fact in facts(design) {
         legend::row(drawing, (fact.name, &fact.value), [left, y], width, size);
         y += LINE * f;
     }
-    title(subject, wish, scale, [left, width], f, drawing);
+    title(design, wish, scale, [left, width], f, drawing);
 }
 
 fn heading(drawing: &mut Drawing, text: &str, at: [f64; 2], width: f64, f: f64) {
@@ -264,27 +264,27 @@ fn heading(drawing: &mut Drawing, text: &str, at: [f64; 2], width: f64, f: f64) 
 }
 
 fn title(
-    subject: &Subject,
+    design: &Design,
     wish: &Wish,
     scale: f64,
     [left, width]: [f64; 2],
     f: f64,
     drawing: &mut Drawing,
 ) {
-    let name = if subject.name().is_empty() { "Grid" } else { subject.name() };
+    let name = if design.name().is_empty() { "Grid" } else { design.name() };
     let to_scale = told((1000.0 / scale * 1e9).round() / 1e9);
     let to_scale = match wish.sheet {
         Sheet::Iso => to_scale + " in the plane of the picture",
         Sheet::Perspective => "none: a perspective".to_owned(),
         _ => to_scale,
     };
-    let seed = subject.document.seed.map_or("-".to_owned(), |s| s.to_string());
+    let seed = design.document.seed.map_or("-".to_owned(), |s| s.to_string());
     let rows = [
         ("Scale", to_scale),
         ("Units", "metres, degrees".to_owned()),
         ("Paper", format!("{:?}", wish.paper)),
         ("Seed", seed),
-        ("Made by", format!("gridshell {}", subject.document.version)),
+        ("Made by", format!("gridshell {}", design.document.version)),
     ];
     let foot = drawing.size[1] - MARGIN * f;
     let top = foot - (rows.len() as f64 * LINE + 2.0 * TITLE + 16.0) * f;

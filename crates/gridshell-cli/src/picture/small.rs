@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::scene::{self, Style};
 use super::sheet::{COLOURED_NODES, Wish, seen};
 use super::{label, legend};
-use crate::subject::Subject;
+use gridshell::design::Design;
 
 /// The greater side of a view, the room round it and the size of type.
 const SIDE: f64 = 730.0;
@@ -17,18 +17,18 @@ const TYPE: f64 = 13.0;
 const STRIP: f64 = 300.0;
 
 /// Draw it.
-pub fn picture(subject: &Subject, wish: &Wish, title: String) -> Drawing {
-    let views: Vec<_> = wish.sheet.views().iter().map(|&v| seen(subject, v)).collect();
+pub fn picture(design: &Design, wish: &Wish, title: String) -> Drawing {
+    let views: Vec<_> = wish.sheet.views().iter().map(|&v| seen(design, v)).collect();
     let greatest = views.iter().flat_map(|v| v.2.size()).fold(f64::MIN_POSITIVE, f64::max);
     let scale = SIDE / greatest;
     let heights: Vec<f64> = views.iter().map(|v| v.2.size()[1] * scale).collect();
     let widest = views.iter().map(|v| v.2.size()[0] * scale).fold(STRIP, f64::max);
-    let colours = Colours::new(wish.coloring, subject);
+    let colours = Colours::new(wish.coloring, design);
     let foot = if colours.scale.is_some() { 3.2 * TYPE } else { 0.0 };
     let gaps = MARGIN * (views.len() + 1) as f64;
     let size = [widest + 2.0 * MARGIN, heights.iter().sum::<f64>() + gaps + foot];
     let mut drawing = Drawing::new(size.map(f64::ceil), Unit::Pixel, title);
-    let member = scale * subject.schedule.figures.length.spread.mean;
+    let member = scale * design.schedule.figures.length.spread.mean;
     let style = Style::of(member, TYPE);
     let mut style = Style { member: 1.6 * style.member, support: 0.0, ..style }.beside(wish.labels);
     if wish.coloring == Coloring::Degree {
@@ -37,8 +37,8 @@ pub fn picture(subject: &Subject, wish: &Wish, title: String) -> Drawing {
     let mut y = MARGIN;
     for ((view, camera, extent), height) in views.iter().zip(heights) {
         let frame = Frame::centred(extent, scale, [MARGIN, y], [widest, height]);
-        scene::draw(subject, &colours, *view, camera, &frame, &style, &mut drawing);
-        label::draw(subject, wish.labels, &colours, camera, &frame, TYPE, &mut drawing);
+        scene::draw(design, &colours, *view, camera, &frame, &style, &mut drawing);
+        label::draw(design, wish.labels, &colours, camera, &frame, TYPE, &mut drawing);
         y += height + MARGIN;
     }
     if let Some(scale) = &colours.scale {

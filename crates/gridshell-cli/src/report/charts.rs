@@ -2,7 +2,7 @@
 
 use crate::picture::drawing::{Anchor, Drawing, Rgb, Unit};
 use crate::picture::svg;
-use crate::subject::Subject;
+use gridshell::design::Design;
 use gridshell::schedule::Spread;
 
 const SIZE: [f64; 2] = [360.0, 170.0];
@@ -14,8 +14,8 @@ const INK: Rgb = [0.10, 0.11, 0.12];
 const BAR: Rgb = [0.36, 0.52, 0.66];
 
 /// The histograms that the page shows.
-pub fn section(subject: &Subject) -> String {
-    let f = &subject.schedule.figures;
+pub fn section(design: &Design) -> String {
+    let f = &design.schedule.figures;
     let charts = [
         chart("Length of members, m", &f.length.spread, 3),
         chart("Shape q of panels", &f.panel.shape, 3),

@@ -2,7 +2,7 @@
 
 use crate::picture::drawing::{Drawing, Rgb, Unit};
 use crate::picture::svg;
-use crate::subject::Subject;
+use gridshell::design::Design;
 use gridshell::math::trig;
 use gridshell::stages::measure::Lengths;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -25,8 +25,8 @@ struct Measure {
 }
 
 /// All measures.
-pub fn section(subject: &Subject) -> String {
-    let cards: String = all(subject).iter().map(card).collect();
+pub fn section(design: &Design) -> String {
+    let cards: String = all(design).iter().map(card).collect();
     format!("<section><h2>What makes it good</h2><div class=\"measures\">{cards}</div></section>")
 }
 
@@ -48,8 +48,8 @@ fn card(measure: &Measure) -> String {
     )
 }
 
-fn all(subject: &Subject) -> Vec<Measure> {
-    let q = subject.quality;
+fn all(design: &Design) -> Vec<Measure> {
+    let q = &design.quality;
     let measure = |name, value, meaning: &str, good, bad| Measure {
         name,
         value,
@@ -66,8 +66,8 @@ fn all(subject: &Subject) -> Vec<Measure> {
         }
     };
     let fluency = q.fluency.map_or("&infin;".to_owned(), |x| format!("{x:.2}"));
-    let off = 1e3 * subject.edge_length;
-    let share = subject.schedule.figures.curvature_share;
+    let off = 1e3 * design.edge_length;
+    let share = design.schedule.figures.curvature_share;
     let share = share.map_or(String::new(), |s| {
         format!(" {:.0} % of the bending at regular nodes comes from the surface.", 100.0 * s)
     });

@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::picture::colour::{Coloring, Colours};
 use crate::picture::svg::escaped;
 use crate::picture::view::View;
-use crate::subject::Subject;
+use gridshell::design::Design;
 use gridshell::io;
 use gridshell::run::{Run, SurfaceSummary};
 use std::path::Path;
@@ -42,38 +42,39 @@ pub fn write(file: &Path, page: &str) -> Result<(), Failure> {
     io::replace(file, page.as_bytes()).map_err(Failure::other)
 }
 
-/// The page of a grid, and of the run that made it if there is one.
-pub fn page(subject: &Subject, run: Option<&Run>) -> String {
+/// The page of a grid, and of the run that made it if there is one: that tells of the grid before edits.
+pub fn page(design: &Design) -> String {
+    let run = design.run.as_deref();
     let colored: Vec<Colored> = COLORINGS
         .iter()
-        .map(|&(key, _, coloring)| Colored { key, colours: Colours::new(coloring, subject) })
+        .map(|&(key, _, coloring)| Colored { key, colours: Colours::new(coloring, design) })
         .collect();
-    let mut body = header(subject, run);
+    let mut body = header(design, run);
     body += &warnings(run);
-    body += &viewer::section(subject, &colored);
+    body += &viewer::section(design, &colored);
     body += "<section><h2>Plan and perspective</h2><div class=\"pictures\">";
     for (view, caption) in [(View::Plan, "Plan"), (View::Perspective, "Perspective")] {
-        let picture = pictures::picture(subject, &colored, view);
+        let picture = pictures::picture(design, &colored, view);
         body += &format!("<figure>{picture}<figcaption>{caption}</figcaption></figure>");
     }
     body += "</div><p class=\"note\">Black nodes have too few members, white ones too many. <span class=\"screen\">The pictures take \
              their colours from the choice above.</span></p></section>";
-    body += &measures::section(subject);
-    body += &charts::section(subject);
-    body += &tables::figures(subject);
+    body += &measures::section(design);
+    body += &charts::section(design);
+    body += &tables::figures(design);
     if let Some(run) = run {
         body += &tables::parts(run);
         body += &tables::stages(run);
     }
-    body += &tables::lengths(subject);
-    body += &tables::irregular(subject);
-    body += &tables::recipe(subject);
+    body += &tables::lengths(design);
+    body += &tables::irregular(design);
+    body += &tables::recipe(design);
     body += &format!(
         "<footer>{}. Lengths in metres, angles in degrees.</footer>",
-        escaped(&subject.origin())
+        escaped(&imprint(design))
     );
     body += &viewer::script();
-    let title = format!("{}: triangular grid", subject.name());
+    let title = format!("{}: triangular grid", design.name());
     whole(&title, &style(&colored), &body)
 }
 
@@ -87,8 +88,8 @@ pub fn whole(title: &str, style: &str, body: &str) -> String {
     )
 }
 
-fn header(subject: &Subject, run: Option<&Run>) -> String {
-    let (q, f) = (subject.quality, &subject.schedule.figures);
+fn header(design: &Design, run: Option<&Run>) -> String {
+    let (q, f) = (&design.quality, &design.schedule.figures);
     let tile = |value: String, name: &str| {
         format!("<div class=\"tile\"><b>{value}</b><span>{name}</span></div>")
     };
@@ -102,7 +103,7 @@ fn header(subject: &Subject, run: Option<&Run>) -> String {
         tile(f.length.groups.to_string(), "member lengths"),
         tile(f.panel.distinct.to_string(), "kinds of panels"),
     ];
-    let seed = subject.document.seed.map_or(String::new(), |s| format!(" Seed {s}."));
+    let seed = design.document.seed.map_or(String::new(), |s| format!(" Seed {s}."));
     let surface = run.map_or(String::new(), |run| surface(&run.surface));
     let symmetry = run.and_then(|run| run.symmetry.as_ref());
     let symmetry = symmetry.map_or(String::new(), |s| format!(" Symmetric: {}.", s.told()));
@@ -114,9 +115,9 @@ fn header(subject: &Subject, run: Option<&Run>) -> String {
         "<header><h1>{}</h1><p>Triangular grid of members about {:.3} m long{surface}, by gridshell \
          {}.{seed}{symmetry}{took}</p>\
          <div class=\"tiles\">{}</div></header>",
-        escaped(subject.name()),
-        subject.edge_length,
-        escaped(&subject.document.version),
+        escaped(design.name()),
+        design.edge_length,
+        escaped(&design.document.version),
         tiles.concat()
     )
 }
@@ -151,4 +152,10 @@ fn warnings(run: Option<&Run>) -> String {
         "<section class=\"warnings\"><h2>What to know</h2><ul>{}</ul></section>",
         items.concat()
     )
+}
+
+/// Seed and version.
+fn imprint(design: &Design) -> String {
+    let seed = design.document.seed.map_or(String::new(), |s| format!("seed {s}, "));
+    format!("{seed}gridshell {}", design.document.version)
 }

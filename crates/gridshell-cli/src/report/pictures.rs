@@ -7,8 +7,8 @@ use crate::picture::scene::{self, Item, PANEL};
 use crate::picture::svg::hex;
 use crate::picture::view::View;
 use crate::picture::{legend_of, lit};
-use crate::subject::Subject;
 use gridshell::degree::REGULAR;
+use gridshell::design::Design;
 use std::fmt::Write;
 
 /// Greater side of a picture in its own units: fine enough for whole numbers.
@@ -27,8 +27,8 @@ pub struct Colored {
 }
 
 /// The grid from here.
-pub fn picture(subject: &Subject, colored: &[Colored], view: View) -> String {
-    let schedule = subject.schedule;
+pub fn picture(design: &Design, colored: &[Colored], view: View) -> String {
+    let schedule = &design.schedule;
     let points = &schedule.nodes.xyz;
     let camera = view.camera(points);
     let extent = Extent::of(&camera, points);
@@ -36,7 +36,7 @@ pub fn picture(subject: &Subject, colored: &[Colored], view: View) -> String {
     let scale = SIDE / w.max(h).max(f64::MIN_POSITIVE);
     let frame = Frame::new(&extent, scale, [ROOM, ROOM]);
     let size = [w, h].map(|x| (x * scale + 2.0 * ROOM).ceil());
-    let (seen, items) = scene::seen(subject, &camera);
+    let (seen, items) = scene::seen(design, &camera);
     let places: Vec<[i64; 2]> =
         seen.iter().map(|&s| frame.place(s).map(|x| x.round() as i64)).collect();
     let member = scale * schedule.figures.length.spread.mean;
@@ -87,8 +87,8 @@ pub fn picture(subject: &Subject, colored: &[Colored], view: View) -> String {
 }
 
 /// A plan in one colouring.
-pub fn plan(subject: &Subject, colored: &[Colored]) -> String {
-    picture(subject, colored, View::Plan)
+pub fn plan(design: &Design, colored: &[Colored]) -> String {
+    picture(design, colored, View::Plan)
 }
 
 /// ` length4`: the step in each colouring that colours the element.

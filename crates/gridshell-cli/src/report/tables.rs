@@ -2,7 +2,7 @@
 
 use crate::facts::facts;
 use crate::picture::svg::escaped;
-use crate::subject::Subject;
+use gridshell::design::Design;
 use gridshell::recipe::Start;
 use gridshell::run::{CandidateReport, PartReport, Run, SymmetryReport};
 
@@ -10,12 +10,12 @@ use gridshell::run::{CandidateReport, PartReport, Run, SymmetryReport};
 const MOST_ROWS: usize = 200;
 
 /// All figures.
-pub fn figures(subject: &Subject) -> String {
+pub fn figures(design: &Design) -> String {
     let row = |name: &str, value: &str| {
         format!("<div class=\"fact\"><span>{name}</span><b>{}</b></div>", escaped(value))
     };
-    let rows: String = facts(subject).iter().map(|f| row(f.name, &f.value)).collect();
-    let supports = subject.document.supports.len();
+    let rows: String = facts(design).iter().map(|f| row(f.name, &f.value)).collect();
+    let supports = design.document.supports.len();
     let supports = row("supported nodes", &supports.to_string());
     format!("<section><h2>All figures</h2><div class=\"two\">{rows}{supports}</div></section>")
 }
@@ -132,9 +132,9 @@ fn quality(fluency: Option<f64>) -> String {
 }
 
 /// The groups of members to be cut alike.
-pub fn lengths(subject: &Subject) -> String {
-    let members = &subject.schedule.members;
-    let groups = subject.schedule.figures.length.groups;
+pub fn lengths(design: &Design) -> String {
+    let members = &design.schedule.members;
+    let groups = design.schedule.figures.length.groups;
     let mut spans = vec![(0usize, f64::INFINITY, 0f64); groups];
     for (&group, &length) in members.group.iter().zip(&members.length) {
         let span = &mut spans[group as usize];
@@ -149,14 +149,14 @@ pub fn lengths(subject: &Subject) -> String {
         })
         .collect();
     let head = tr("th", &["group", "members", "from, m", "to, m"].map(str::to_owned));
-    let millimetres = 1e3 * subject.schedule.figures.length_tolerance;
+    let millimetres = 1e3 * design.schedule.figures.length_tolerance;
     let summary = format!("Lengths to be cut: {groups} groups within {millimetres:.1} mm");
     folded(&summary, &format!("<table>{head}{rows}</table>{}", cut(groups)))
 }
 
 /// The irregular nodes.
-pub fn irregular(subject: &Subject) -> String {
-    let nodes = &subject.schedule.nodes;
+pub fn irregular(design: &Design) -> String {
+    let nodes = &design.schedule.nodes;
     let found: Vec<usize> = (0..nodes.xyz.len()).filter(|&v| nodes.is_irregular(v)).collect();
     if found.is_empty() {
         return String::new();
@@ -184,8 +184,8 @@ pub fn irregular(subject: &Subject) -> String {
 }
 
 /// The recipe as it can be given back.
-pub fn recipe(subject: &Subject) -> String {
-    let Some(recipe) = &subject.document.recipe else { return String::new() };
+pub fn recipe(design: &Design) -> String {
+    let Some(recipe) = &design.document.recipe else { return String::new() };
     let text = toml::to_string(recipe).unwrap_or_default();
     folded("Recipe (for --recipe FILE.toml)", &format!("<pre>{}</pre>", escaped(&text)))
 }

@@ -3,9 +3,9 @@
 use super::COLORINGS;
 use super::pictures::{Colored, inks, legends};
 use crate::picture::colour::Colours;
-use crate::subject::Subject;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use gridshell::design::Design;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -38,7 +38,7 @@ struct Steps {
 }
 
 /// Choice of colours, canvas, legend.
-pub fn section(subject: &Subject, colored: &[Colored]) -> String {
+pub fn section(design: &Design, colored: &[Colored]) -> String {
     let choice: Vec<String> = COLORINGS
         .iter()
         .map(|(key, name, _)| {
@@ -49,7 +49,7 @@ pub fn section(subject: &Subject, colored: &[Colored]) -> String {
         })
         .collect();
     // No element can end the script: the text has no `<`.
-    let data = serde_json::to_string(&data(subject, colored)).expect("plain data");
+    let data = serde_json::to_string(&data(design, colored)).expect("plain data");
     format!(
         "<section><h2 class=\"screen\">View to turn</h2><div class=\"choice\">Colours: {}\
          <label><input type=\"checkbox\" id=\"panels\" checked> panels</label></div>\
@@ -66,8 +66,8 @@ pub fn script() -> String {
     format!("<script>\n{SCRIPT}</script>")
 }
 
-fn data(subject: &Subject, colored: &[Colored]) -> Data {
-    let schedule = subject.schedule;
+fn data(design: &Design, colored: &[Colored]) -> Data {
+    let schedule = &design.schedule;
     let (nodes, members) = (&schedule.nodes, &schedule.members);
     let low = nodes.xyz.iter().fold(gridshell::DVec3::INFINITY, |a, &b| a.min(b));
     let high = nodes.xyz.iter().fold(gridshell::DVec3::NEG_INFINITY, |a, &b| a.max(b));

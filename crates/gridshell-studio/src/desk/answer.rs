@@ -99,11 +99,11 @@ impl Desk {
                 self.change(run, "redo", |editor, _| done(editor.redo(), "redo"))
             }
             Request::Hover { run, nodes, question } => {
-                let trial = self.laid(run)?.trial()?;
+                let trial = self.laid(run)?.trial();
                 one(editing::hover(run, question, &trial, nodes))
             }
             Request::Suggest { run } => {
-                let trial = self.laid(run)?.trial()?;
+                let trial = self.laid(run)?.trial();
                 one(editing::suggest(run, &trial))
             }
             Request::Saved { run, version } => {
@@ -195,7 +195,7 @@ impl Desk {
     fn look(&self, run: u32, stage: Option<&str>) -> Result<Vec<Outgoing>> {
         let laid = self.laid(run)?;
         if let Some(name) = stage {
-            let stages = laid.run.iter().flat_map(|run| &run.stages);
+            let stages = laid.design.run.iter().flat_map(|run| &run.stages);
             let found = stages.filter(|s| s.name == name).find_map(|s| s.grid.as_ref());
             let grid =
                 found.ok_or_else(|| Error::Option(format!("no stage `{name}` with a grid")))?;

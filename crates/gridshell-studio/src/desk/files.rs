@@ -6,10 +6,10 @@ use crate::message::Event;
 use crate::opened::{self, Opened};
 use crate::session::{Ended, Session};
 use axum::body::Bytes;
+use gridshell::design::Design;
 use gridshell::error::{Error, Result};
 use gridshell::io::{self, Document, Opening, Reference};
 use gridshell::job::Job;
-use gridshell::reopen;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -97,17 +97,16 @@ impl Desk {
         let job = &self.opening();
         let (opened, notes) = self.surface_of(&document, path, job)?;
         let model = opened.reference.is_some().then_some(&opened.model);
-        let read = reopen::restore(document, model, job)?;
-        let read = reopen::Opened { notes, ..read };
+        let design = Design { notes, ..Design::restore(document, model, job)? };
         self.put(&opened);
         let number = self.number();
         let mut state = self.state();
-        state.recipe = read.document.recipe.clone().map(|r| (number, r));
+        state.recipe = design.document.recipe.clone().map(|r| (number, r));
         if let Some(event) = recipe(&state) {
             self.tell(event);
         }
         drop(state);
-        Ok(self.keep(as_what(Laid::of_file(number, read, opened))))
+        Ok(self.keep(as_what(Laid::of_file(number, design, opened))))
     }
 
     /// The surface that a grid lies on, else the grid itself, with a note on that.

@@ -18,7 +18,8 @@ impl Desk {
         self.used(&laid);
         let mut state = self.state();
         state.runs.push(Arc::clone(&laid));
-        if let (Some(session), true) = (&state.session, laid.run.is_some() || laid.unsaved()) {
+        if let (Some(session), true) = (&state.session, laid.design.run.is_some() || laid.unsaved())
+        {
             session.save(&laid);
         }
         let gone = state.put_away();

@@ -77,10 +77,10 @@ fn what_a_person_made_is_never_put_away() {
     let desk = keeping(state.path());
     let mut events = desk.events();
     let laid = hexagon(1, Effort::Draft);
-    let run = laid.run.clone().unwrap();
+    let design = laid.design.clone();
     let opened = Arc::clone(&laid.opened);
     let of_run = |number, origin: Option<&str>| {
-        Laid::of_run(number, run.clone(), Arc::clone(&opened), origin.map(str::to_owned))
+        Laid::of_run(number, design.clone(), Arc::clone(&opened), origin.map(str::to_owned))
     };
     desk.keep(laid);
     edit(&desk, 1);

@@ -16,11 +16,10 @@ mod own;
 
 pub use ended::Ended;
 
-use crate::laid::{Finished, Laid};
+use crate::laid::Laid;
 use gridshell::error::{Error, Result};
-use gridshell::io::{self, GridFile, Reference};
+use gridshell::io::{self, Reference};
 use gridshell::job::Job;
-use gridshell::structure::Structure;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Write;
@@ -169,10 +168,10 @@ impl Drop for Writer {
 
 /// Write a grid, after the file of the surface that it lies on.
 fn write(folder: &Path, laid: &Laid) -> Result<()> {
-    let Finished { mut document, schedule, .. } = laid.finished()?;
+    let (mut design, _) = laid.finished()?;
     let mut folder = folder.to_owned();
     if let (Some(Reference::File { path, fnv1a, .. }), Some(bytes)) =
-        (&mut document.surface, &laid.opened.file)
+        (&mut design.document.surface, &laid.opened.file)
     {
         folder.push(&*fnv1a);
         let name = Path::new(path).file_name().unwrap_or_default().to_owned();
@@ -184,10 +183,7 @@ fn write(folder: &Path, laid: &Laid) -> Result<()> {
         }
         *path = name.to_string_lossy().into_owned();
     }
-    let structure = Structure::default();
-    let file = GridFile { document: &document, schedule: &schedule, structure: &structure };
-    let path = folder.join(own::grid_name(laid.number));
-    io::write(&path, &file, &Job::default()).map(|_| ())
+    design.write(&folder.join(own::grid_name(laid.number)), &Job::default()).map(|_| ())
 }
 
 #[cfg(test)]

@@ -4,10 +4,10 @@ use crate::surface::{Carrier, SurfacePoint};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Lists after which pairs found on two sheets are not walked again. With fewer, a pair beside a crease that was seen
-/// too early is never seen again; with more, a surface that waves within a member walks thousands of pairs for nothing
-/// at every list.
-const WALKED_AGAIN: usize = 4;
+/// Walks in vain, for each point, after which pairs found on two sheets are not walked again. With fewer, a pair beside
+/// a crease that was seen too early is never seen again; with more, a surface that waves within a member, where each
+/// point has seven such pairs, walks them for nothing at every list. Other surfaces come nowhere near it.
+const WALKS_IN_VAIN: usize = 32;
 
 /// Neighbours of points that move, brought up to date from time to time.
 #[derive(Default)]
@@ -16,8 +16,8 @@ pub struct Neighbors {
     pub lists: Vec<Vec<u32>>,
     /// Points as near as neighbours, but on another sheet; of each pair, those of the higher index.
     apart: Vec<Vec<u32>>,
-    /// How often they were listed.
-    listed: usize,
+    /// Walks that did not arrive.
+    in_vain: usize,
 }
 
 impl Neighbors {
@@ -29,7 +29,7 @@ impl Neighbors {
         let has = |lists: &[Vec<u32>], i: usize, j| {
             lists.get(i).is_some_and(|list| list.binary_search(&j).is_ok())
         };
-        let again = self.listed < WALKED_AGAIN;
+        let again = self.in_vain < WALKS_IN_VAIN * points.len();
         let (mut lists, apart): (Vec<Vec<u32>>, Vec<Vec<u32>>) = (0..points.len())
             .into_par_iter()
             .map(|i| {
@@ -55,7 +55,8 @@ impl Neighbors {
         for (all, above) in both.iter_mut().zip(&mut lists) {
             all.append(above);
         }
-        *self = Neighbors { lists: both, apart, listed: self.listed + 1 };
+        let walked = if again { apart.iter().map(Vec::len).sum() } else { 0 };
+        *self = Neighbors { lists: both, apart, in_vain: self.in_vain + walked };
     }
 }
 
@@ -130,7 +131,7 @@ mod tests {
             .map(|(triangle, bary)| SurfacePoint { triangle, bary });
         let xyz = points.map(|p| carrier.xyz(&p));
         let mut neighbors = Neighbors::default();
-        for _ in 0..2 * WALKED_AGAIN {
+        for _ in 0..4 * WALKS_IN_VAIN {
             neighbors.list(&carrier, &points, &xyz, 1.0);
             assert_eq!(neighbors.lists, [vec![1], vec![0], vec![]]);
         }

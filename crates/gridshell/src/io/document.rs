@@ -101,8 +101,8 @@ impl Document {
         }
     }
 
-    /// The grid of a run on the surface at `reference`, supported at these nodes.
-    pub fn of_run(run: &Run, reference: Reference, supports: Vec<u32>) -> Document {
+    /// The grid of a run, supported at these nodes; where its surface is remains to be said.
+    pub fn of_run(run: &Run, supports: Vec<u32>) -> Document {
         let grid = &run.grid;
         let nodes = grid.xyz.iter().zip(0_u32..);
         let nodes = RTree::bulk_load(
@@ -115,7 +115,6 @@ impl Document {
             nodes.locate_within_distance(p, reach).map(|n| n.data).min()
         };
         Document {
-            surface: Some(reference),
             seed: Some(run.seed),
             edge_length: Some(run.edge_length),
             recipe: Some(run.recipe.clone()),

@@ -15,6 +15,7 @@ mod repair;
 mod smoothing;
 mod starts;
 mod symmetry;
+mod taken;
 mod verdict;
 mod wishes;
 
@@ -34,9 +35,10 @@ use places::local;
 use rayon::prelude::*;
 pub use smoothing::smoothed;
 use starts::{Start, Starts};
+use std::sync::Arc;
 use std::time::Instant;
+pub use taken::take;
 use verdict::Verdict;
-pub use verdict::check as refuse_invalid;
 
 /// Chord error of the carrier over l0. Nodes end on the exact surface; until then they may be this far off.
 const CARRIER_CHORD: f64 = 2e-3;
@@ -54,13 +56,21 @@ const SENSIBLE_NODES: usize = 1000;
 /// several parts of which the recipe chooses none or of which too much could not be read, [`Error::NoGrid`] and
 /// [`Error::Invalid`] where no valid grid of this edge length exists or was found.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
+    Ok(generate_on(model, recipe, job)?.0)
+}
+
+/// As [`generate`]; the surface that the grid was laid on is given too.
+///
+/// # Errors
+/// As [`generate`].
+pub fn generate_on(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
     recipe.validate()?;
     check_whole(model, recipe, job)?;
-    let run =
+    let (run, surface) =
         parts::generate(&*smoothed(model, recipe, job)?, &local(recipe, model.origin()), job)?;
     // As it was given, but for what turned out on the way.
     let skip_parts = run.recipe.skip_parts.clone();
-    Ok(Run { recipe: Recipe { skip_parts, ..recipe.clone() }, ..run })
+    Ok((Run { recipe: Recipe { skip_parts, ..recipe.clone() }, ..run }, surface))
 }
 
 /// Lay a grid on a model of one part; the surface that it was laid on is given too.
@@ -239,8 +249,8 @@ fn finish(
         warnings,
         stopped: job.stopped(),
         origin: surface.origin,
-        grid,
-        schedule,
+        grid: Arc::new(grid),
+        schedule: Arc::new(schedule),
     })
 }
 

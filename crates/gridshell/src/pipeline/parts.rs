@@ -16,6 +16,7 @@ use crate::surface::parts::Offset;
 use crate::surface::{ChainPoint, Locator, Model, Sampling, Surface};
 use crate::validity::Validity;
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Parts beyond this many are only counted in messages.
 const MOST_TOLD: usize = 20;
@@ -27,20 +28,21 @@ const MOST_LAID: usize = 1000;
 /// # Errors
 /// [`Error::Surface`] listing the parts where there are several and the recipe chooses none, [`Error::Option`] for
 /// a part that is not there; as [`super::generate`] for each part.
-pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {
+pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
     let parts = model.parts();
     match recipe.part {
         Parts::Number(n) => {
-            let mut run = single(&model.of_faces(numbered(&parts, n)?), recipe, job)?.0;
+            let part = model.of_faces(numbered(&parts, n)?);
+            let (mut run, surface) = single(&part, recipe, job)?;
             if parts.len() > 1 {
                 run.warnings.push(format!("part {n} of {}; the others are left out", parts.len()));
             }
-            Ok(run)
+            Ok((run, surface))
         }
         Parts::All if parts.len() > MOST_LAID => Err(too_many(&parts)),
         Parts::All if parts.len() > 1 => all(model, &parts, recipe, job),
         Parts::One if parts.len() > 1 => Err(choice(model, &parts, job)),
-        Parts::One | Parts::All => Ok(single(model, recipe, job)?.0),
+        Parts::One | Parts::All => single(model, recipe, job),
     }
 }
 
@@ -115,7 +117,7 @@ fn too_many(parts: &[Vec<u32>]) -> Error {
 }
 
 /// One grid with a piece on each part.
-fn all(model: &Model, parts: &[Vec<u32>], recipe: &Recipe, job: &Job) -> Result<Run> {
+fn all(model: &Model, parts: &[Vec<u32>], recipe: &Recipe, job: &Job) -> Result<(Run, Surface)> {
     let pieces = Pieces::new(model, parts, recipe, job)?;
     let Done { numbers, results, failed } =
         pieces.each(|part, recipe| single(part, recipe, job))?;
@@ -129,7 +131,7 @@ fn all(model: &Model, parts: &[Vec<u32>], recipe: &Recipe, job: &Job) -> Result<
     skipped.extend(failed.iter().map(|f| f.number));
     skipped.sort_unstable();
     skipped.dedup();
-    Ok(Run { failed, ..run })
+    Ok((Run { failed, ..run }, surface))
 }
 
 /// The parts of a model with a recipe for each.
@@ -309,7 +311,7 @@ fn join(
     length: f64,
     job: &Job,
 ) -> Result<Run> {
-    let grids: Vec<&Grid> = runs.iter().map(|run| &run.grid).collect();
+    let grids: Vec<&Grid> = runs.iter().map(|run| &*run.grid).collect();
     let grid = side_by_side(&grids, offsets)?;
     let quality = measure(&grid, surface, length, &recipe.measure);
     let validity = Validity::of(&grid, surface, length, &quality);
@@ -351,12 +353,12 @@ fn join(
         irregular: irregular_nodes(&grid, surface.origin),
         quality,
         figures: schedule.figures.clone(),
-        schedule,
+        schedule: Arc::new(schedule),
         valid: validity.is_valid(),
         faults: validity.faults,
         warnings,
         stopped: job.stopped(),
-        grid,
+        grid: Arc::new(grid),
         ..first
     })
 }

@@ -22,6 +22,7 @@ use crate::surface::section::{Part, Wedge};
 use crate::surface::{ChainPoint, Group, Locator, Model, Motion, Sampling, Surface, Symmetries};
 use crate::validity::Validity;
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// An image may be off the surface by this share of the surface's size.
 const OFF_SIZE: f64 = 1e-6;
@@ -230,8 +231,8 @@ pub fn generate(
         stopped: job.stopped(),
         quality,
         warnings,
-        grid,
-        schedule,
+        grid: Arc::new(grid),
+        schedule: Arc::new(schedule),
         ..run
     })
 }

@@ -3,20 +3,19 @@
 //! all that comes out is in the file's coordinates.
 
 use crate::promise::{check, quick};
-use gridshell::edit::{Edit, Editor};
-use gridshell::io::{self, Document, GridFile, LengthUnit, Opening};
+use gridshell::design::{Design, Reopening};
+use gridshell::edit::Edit;
+use gridshell::io::{self, LengthUnit, Opening};
 use gridshell::job::Job;
 use gridshell::recipe::{Direction, Effort, Recipe, Size};
 use gridshell::run::Run;
-use gridshell::schedule::{Schedule, Tolerances};
-use gridshell::structure::{Structure, Supports};
+use gridshell::structure::Supports;
 use gridshell::surface::brep::BrepFace;
 use gridshell::surface::nurbs::NurbsSurface;
 use gridshell::surface::{Brep, Model, Shape};
-use gridshell::{DVec3, pipeline, reopen};
+use gridshell::{DVec3, pipeline};
 use std::fmt::Write;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// Where models are drawn: far in two axes, in one, in three, and below and left of the origin.
 const PLACES: [DVec3; 4] = [
@@ -213,28 +212,18 @@ fn every_format_has_the_files_coordinates_and_ours_open_again() {
         let path = scratch(&format!("surface{k}.obj"));
         let model = mesh("format.obj", place, 1.0);
         std::fs::write(&path, text(place, 1.0)).unwrap();
-        let run = lay(&model, &wishes(place));
-        let (surface, _) = pipeline::surface(&model, &run.recipe, &Job::default()).unwrap();
-        let nodes = world(&run);
-        let held = Supports::Points(vec![nodes[0], nodes[1]]).nodes(&run.grid, &surface).unwrap();
-        assert_eq!(held, [0, 1]);
         let reference =
             io::reference(&path.to_string_lossy(), &Opening::default(), &Job::default()).unwrap();
-        let document = Document::of_run(&run, reference, held);
-        assert_eq!(document.anchors.len(), 2);
-        let structure = Structure::default();
-        let file = GridFile { document: &document, schedule: &run.schedule, structure: &structure };
+        let design = Design::generate(&model, &wishes(place), &Job::default()).unwrap();
+        let mut design = design.referring_to(Some(reference));
+        let nodes = world(design.run.as_ref().unwrap());
+        design.support(&Supports::Points(vec![nodes[0], nodes[1]])).unwrap();
+        assert_eq!(design.document.supports, [0, 1]);
+        assert_eq!(design.document.anchors.len(), 2);
         for end in ["obj", "ply", "stl", "off", "glb", "json", "gridshell"] {
             let path = scratch(&format!("grid{k}.{end}"));
-            io::write(&path, &file, &Job::default()).unwrap();
-            let opened = reopen::open(
-                &path,
-                None,
-                &Opening::default(),
-                gridshell::io::Follow::Near,
-                &Job::default(),
-            )
-            .unwrap();
+            design.write(&path, &Job::default()).unwrap();
+            let opened = Design::open(&path, &Job::default()).unwrap();
             // STL holds no order of nodes.
             let loose = if end == "stl" { 1e-6 } else { 0.0 };
             let single = if end == "glb" { 1e-5 } else { loose };
@@ -244,27 +233,20 @@ fn every_format_has_the_files_coordinates_and_ours_open_again() {
                 assert!(off <= single + 1e-9, "{end} at {place}: {off}");
             }
             if end == "gridshell" {
-                assert_eq!(opened.document, document);
-                assert_eq!(opened.grid.xyz, run.grid.xyz, "on its surface again, bit for bit");
+                assert_eq!(opened.document, design.document);
+                assert_eq!(opened.grid.xyz, design.grid.xyz, "on its surface again, bit for bit");
                 let of_surface = |n: &String| n.contains("the file states no unit");
                 assert!(opened.summary.is_some(), "{:?}", opened.notes);
                 assert!(opened.notes.iter().all(of_surface), "{:?}", opened.notes);
             }
-            let on = reopen::open(
-                &path,
-                Some(&path_of(k)),
-                &Opening::default(),
-                gridshell::io::Follow::Near,
-                &Job::default(),
-            )
-            .unwrap();
-            let schedule = Schedule::new(&on.grid, &on.surface, &Tolerances::default());
-            assert!(schedule.nodes.off_surface.iter().all(|&d| d < 1e-4), "{end}");
+            let how = Reopening { surface: Some(path_of(k)), ..Reopening::default() };
+            let on = Design::open_with(&path, &how, &Job::default()).unwrap();
+            assert!(on.schedule.nodes.off_surface.iter().all(|&d| d < 1e-4), "{end}");
             std::fs::remove_file(&path).unwrap();
         }
         for end in ["dxf", "csv", "compas.json", "vtu", "saf.xlsx", "ifc", "tcl"] {
             let written =
-                io::write(&scratch(&format!("handed{k}.{end}")), &file, &Job::default()).unwrap();
+                design.write(&scratch(&format!("handed{k}.{end}")), &Job::default()).unwrap();
             let text = std::fs::read(&written[0]).unwrap();
             let text = String::from_utf8_lossy(&text);
             let first = nodes[0].y.to_string();
@@ -288,10 +270,9 @@ fn path_of(k: usize) -> String {
 fn edits_name_places_in_the_files_coordinates() {
     let edited = |place: DVec3| {
         let model = patch(place);
-        let run = lay(&model, &quick(2.2));
-        let (surface, _) = pipeline::surface(&model, &run.recipe, &Job::default()).unwrap();
-        let mut editor =
-            Editor::new(Arc::new(surface), run.grid.clone(), run.recipe.clone(), run.edge_length);
+        let design = Design::generate(&model, &quick(2.2), &Job::default()).unwrap();
+        let mut editor = design.edit();
+        let run = design.run.as_ref().unwrap();
         let inside = |v: &u32| !run.grid.mesh.is_boundary(*v);
         let node = run.grid.mesh.vertices().filter(inside).nth(7).unwrap();
         let to = run.origin.world(run.grid.xyz[node as usize] + DVec3::new(0.25, 0.125, 0.0));

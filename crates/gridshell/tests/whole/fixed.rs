@@ -23,7 +23,7 @@ fn recipes(edge_length: f64) -> [Recipe; 2] {
 
 /// Every stage's grid and the final one.
 fn grids(run: &Run) -> impl Iterator<Item = &Grid> {
-    run.stages.iter().filter_map(|s| s.grid.as_ref()).chain([&run.grid])
+    run.stages.iter().filter_map(|s| s.grid.as_ref()).chain([&*run.grid])
 }
 
 /// Distance from a polyline, and the arc length of the foot.

@@ -1,5 +1,6 @@
-//! A grid from a file, on its surface again: to be measured, written in another format, or gone on with.
+//! A grid from a file, on its surface again.
 
+use super::{Design, Look};
 use crate::edit::Editor;
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Place};
@@ -9,57 +10,96 @@ use crate::mesh::Mesh;
 use crate::pipeline;
 use crate::recipe::Recipe;
 use crate::run::SurfaceSummary;
-use crate::structure::Supports;
+use crate::structure::{Structure, Supports};
 use crate::surface::{Model, PolygonMesh, Sampling, Surface};
 use glam::DVec3;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A node of a grid file stands at its place if it is no further off than this share of the edge length.
 const AT_PLACE: f64 = 1e-6;
 
-/// A grid that was read, and the surface it lies on.
-pub struct Opened {
-    /// What the file says, or what can be said of a grid from another format.
-    pub document: Document,
-    /// The grid.
-    pub grid: Grid,
-    /// The design surface; the grid itself where that is not known.
-    pub surface: Surface,
-    /// Figures of the design surface, where it is known.
-    pub summary: Option<SurfaceSummary>,
-    /// Wanted member length: the run's, else the mean length; metres.
-    pub edge_length: f64,
-    /// The run's recipe, else the default one.
-    pub recipe: Recipe,
-    /// What the user should know: what was skipped or repaired while reading.
-    pub notes: Vec<String>,
-    /// What of the design surface's file could not be read.
-    pub losses: Vec<String>,
+/// How a grid's file is to be opened.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reopening {
+    /// Name or path of the surface it lies on; without it the one that a `.gridshell` file refers to, else none.
+    pub surface: Option<String>,
+    /// How far a `.gridshell` file is followed to its surface.
+    pub follow: Follow,
+    /// How the surface is read, or the grid where there is none.
+    pub opening: Opening,
+    /// Lengths that differ by no more count as alike, metres; without it what the recipe says.
+    pub length_tolerance: Option<f64>,
+    /// Angles at nodes that differ by no more count as alike, degrees; without it what the recipe says.
+    pub angle_tolerance_deg: Option<f64>,
 }
 
-/// Open the grid in a file, on the surface of this name or path; without one on the surface that a `.gridshell` file
-/// refers to (`follow` says how far), or by itself. `opening` says how the surface is read, or the grid where there is none.
-///
-/// # Errors
-/// [`Error::Io`], [`Error::Parse`] with line or element, [`Error::Surface`] where the panels are no manifold or the
-/// surface cannot carry them, [`Error::Option`] for a surface or format that is not known.
-pub fn open(
-    path: &Path,
-    surface: Option<&str>,
-    opening: &Opening,
-    follow: Follow,
-    job: &Job,
-) -> Result<Opened> {
+impl Reopening {
+    /// The recipe with what is given here.
+    fn over(&self, mut recipe: Recipe) -> Recipe {
+        let measure = &mut recipe.measure;
+        measure.length_tolerance = self.length_tolerance.or(measure.length_tolerance);
+        measure.angle_tolerance_deg =
+            self.angle_tolerance_deg.unwrap_or(measure.angle_tolerance_deg);
+        recipe
+    }
+}
+
+/// A grid that was read, and the surface it lies on.
+pub(super) struct Opened {
+    document: Document,
+    grid: Grid,
+    surface: Surface,
+    summary: Option<SurfaceSummary>,
+    edge_length: f64,
+    recipe: Recipe,
+    notes: Vec<String>,
+    losses: Vec<String>,
+}
+
+impl Opened {
+    /// As a design: measured, within what `how` counts as alike.
+    pub(super) fn measured(self, how: &Reopening, job: &Job) -> Result<Design> {
+        let Opened { mut document, grid, surface, summary, edge_length, recipe, notes, losses } =
+            self;
+        let recipe = how.over(recipe);
+        let Look { quality, schedule, validity } =
+            Look::at(&grid, &surface, edge_length, &recipe, job)?;
+        document.panels.clone_from(&schedule.panels.nodes);
+        document.invalid = (!validity.is_valid()).then(|| validity.summary());
+        Ok(Design {
+            document,
+            grid: Arc::new(grid),
+            surface: Arc::new(surface),
+            summary,
+            recipe,
+            edge_length,
+            quality,
+            schedule: Arc::new(schedule),
+            warnings: validity.warnings(),
+            faults: validity.faults,
+            structure: Structure::default(),
+            run: None,
+            notes,
+            losses,
+        })
+    }
+}
+
+/// Open the grid in a file.
+pub(super) fn open(path: &Path, how: &Reopening, job: &Job) -> Result<Opened> {
     match path.extension() {
-        Some(e) if e.eq_ignore_ascii_case("gridshell") => {
-            open_document(path, surface, opening, follow, job)
-        }
-        _ if io::reads_mesh(path) => open_mesh(path, surface, opening, job),
+        Some(e) if e.eq_ignore_ascii_case("gridshell") => open_document(path, how, job),
+        _ if io::reads_mesh(path) => open_mesh(path, how, job),
         _ => Err(io::unknown(path, &format!("gridshell, {}", io::MESH_FORMATS))),
     }
 }
 
-fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening, job: &Job) -> Result<Opened> {
+fn open_mesh(
+    path: &Path,
+    Reopening { surface, opening, .. }: &Reopening,
+    job: &Job,
+) -> Result<Opened> {
     // Where both are given, the unit is the surface's: our grids state their own.
     let of_grid = if surface.is_some() { Opening::default() } else { opening.clone() };
     let mesh = io::read_mesh_with(path, &of_grid, job)?;
@@ -98,9 +138,7 @@ fn open_mesh(path: &Path, surface: Option<&str>, opening: &Opening, job: &Job) -
 
 fn open_document(
     path: &Path,
-    surface: Option<&str>,
-    opening: &Opening,
-    follow: Follow,
+    Reopening { surface, opening, follow, .. }: &Reopening,
     job: &Job,
 ) -> Result<Opened> {
     let mut document = io::read_document(path, job)?;
@@ -110,7 +148,7 @@ fn open_document(
             document.surface = Some(io::reference(wanted, opening, job)?);
             Some(io::open_with(wanted, opening, job)?)
         }
-        (None, Some(reference)) => match io::open_reference(reference, path, follow, job) {
+        (None, Some(reference)) => match io::open_reference(reference, path, *follow, job) {
             Ok(model) => Some(model),
             Err(e @ (Error::Stopped { .. } | Error::Memory(_))) => return Err(e),
             Err(e) => {
@@ -129,7 +167,7 @@ fn open_document(
 ///
 /// # Errors
 /// [`Error::Surface`] where the panels are no manifold or the surface cannot carry them.
-pub fn restore(document: Document, model: Option<&Model>, job: &Job) -> Result<Opened> {
+pub(super) fn restore(document: Document, model: Option<&Model>, job: &Job) -> Result<Opened> {
     let xyz: Vec<DVec3> = document.nodes.iter().map(|&p| p.into()).collect();
     let recipe = document.recipe.clone().unwrap_or_default();
     let edge_length = document.edge_length.unwrap_or_else(|| mean_side(&xyz, &document.panels));
@@ -218,7 +256,7 @@ fn with_features(mut grid: Grid, document: &Document) -> Result<Grid> {
 
 /// The document of a grid after editing: the grid as it is, numbered anew, and the edits behind those it had. Supports
 /// and anchors follow their nodes; where the whole boundary was supported, it is again.
-pub fn edited(document: &Document, editor: &Editor) -> Document {
+pub(super) fn edited(document: &Document, editor: &Editor) -> Document {
     let grid = editor.finished();
     let now: Vec<u32> = editor.grid().mesh.vertices().collect();
     let follow = |nodes: &[u32]| -> Vec<u32> {
@@ -232,13 +270,7 @@ pub fn edited(document: &Document, editor: &Editor) -> Document {
     let supports = if whole { border } else { held };
     let done = editor.history().map(|(edit, _)| serde_json::json!(edit));
     let fresh = Document::of_grid(&document.name, &grid, editor.surface().origin);
-    // No edit makes a valid grid invalid, but one may mend it.
-    let invalid = document.invalid.as_ref().and_then(|_| {
-        let look = editor.validity(&grid);
-        (!look.is_valid()).then(|| look.summary())
-    });
     Document {
-        invalid,
         places: grid.places.iter().map(|&p| p.into()).collect(),
         edits: document.edits.iter().cloned().chain(done).collect(),
         anchors: follow(&document.anchors),
