@@ -10,7 +10,7 @@ use super::{LengthUnit, Opening, READING, far, file, fins, merge, spike, stitch,
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::surface::nurbs::FARTHEST;
-use crate::surface::{Loss, PolygonMesh, Source, ear};
+use crate::surface::{Loss, PolygonMesh, Source, polygon::triangulate};
 use crate::words;
 use glam::DVec3;
 use std::collections::HashSet;
@@ -248,7 +248,7 @@ fn drop_degenerate(work: &mut Work) {
         }
         if face.len() >= LEAST_SLIT && repeats(face) {
             let mut triangles = Vec::new();
-            ear::split(&work.points, face, &mut triangles);
+            triangulate::split(&work.points, face, &mut triangles);
             triangles.retain(|t| !repeats(t));
             split.extend(triangles.into_iter().map(|t| (t.to_vec(), work.origin[f])));
             face.clear();

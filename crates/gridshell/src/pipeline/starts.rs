@@ -8,7 +8,7 @@ use crate::job::Job;
 use crate::merit::Sums;
 use crate::recipe::{self, Recipe};
 use crate::stages::{pack, triangulate};
-use crate::surface::{Surface, bends::sharp_bends, chart::Chart};
+use crate::surface::{Surface, chart::Chart, fields::bends::sharp_bends};
 use pack::lattice::Lattice;
 use rayon::prelude::*;
 

@@ -3,7 +3,7 @@
 use crate::error::Result;
 use crate::job::Job;
 use crate::recipe::{Direction, Recipe, Size};
-use crate::surface::{Fixtures, Surface, grading};
+use crate::surface::{Fixtures, Surface, fields::grading};
 use glam::DVec3;
 use std::f64::consts::PI;
 

@@ -1,11 +1,9 @@
 //! The trimmed model as CAD files have it: faces over exact shapes, bounded by shared edges.
 
-use super::curve::Curve;
-use super::origin::Origin;
-use super::sew::Sewing;
-use super::shape::Shape;
-use super::source::Source;
+use super::{Curve, Origin, Shape, Source};
+
 use glam::DVec3;
+use serde::Serialize;
 
 /// A boundary representation in metres: what the CAD readers and the built-in surfaces make, and what
 /// [`tessellate`](super::tessellate()) turns into a [`Surface`](super::Surface).
@@ -78,4 +76,21 @@ pub struct Coedge {
     pub edge: u32,
     /// Run from the edge's end to its start.
     pub reversed: bool,
+}
+
+/// What sewing found and did. Lengths in metres.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Sewing {
+    /// Gaps up to this were sewn.
+    pub tolerance: f64,
+    /// Pairs of edges that became one.
+    pub joints: usize,
+    /// Largest distance between two edges that became one.
+    pub largest_gap: f64,
+    /// Edges that are still naked although another naked one runs beside them.
+    pub facing: usize,
+    /// Their length together.
+    pub facing_length: f64,
+    /// How far the others are away, at most.
+    pub facing_gap: f64,
 }

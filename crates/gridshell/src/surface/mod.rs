@@ -4,86 +4,43 @@
 //! behind it, where the input had them. Boundary loops are [`Chain`]s of carrier vertices with the
 //! exact curves behind them. Metres throughout.
 
-mod area;
-pub mod bends;
-mod beyond;
-mod bow;
 pub mod brep;
 pub mod builtin;
-mod cap;
 pub mod carrier;
-pub mod chain;
-pub mod chart;
-mod crowd;
-pub mod curve;
-mod cut;
-mod dense;
-pub mod direction;
-pub(crate) mod ear;
-mod extend;
-mod extent;
-pub mod facets;
-pub mod feature;
-mod fill;
+pub mod exact;
+pub mod features;
+pub mod fields;
 mod fold;
-pub mod grading;
-pub mod group;
-mod guide;
-pub mod locate;
 pub mod model;
-mod motion;
-pub mod nurbs;
-pub mod offset;
-mod order;
-mod orient;
 mod origin;
 pub mod parts;
-mod plan;
-mod poles;
-mod polygon;
-pub mod project;
-mod refine;
-mod replace;
-pub mod ruler;
-mod sample;
-mod seam;
-mod second;
-pub mod section;
+pub(crate) mod polygon;
+mod sampling;
 pub mod sew;
-pub mod shape;
-mod size;
 pub mod smooth;
 pub mod source;
-mod stretch;
+pub mod symmetry;
 pub mod tessellate;
-mod thin;
-mod track;
-mod trim;
-mod weave;
 
-pub use brep::Brep;
-pub use carrier::{Carrier, SurfacePoint};
-pub use chain::{Chain, ChainPoint};
-pub use curve::Curve;
-pub use feature::Fixtures;
+pub use brep::{Brep, Sewing};
+pub use carrier::{Carrier, Chain, ChainPoint, Locator, Ruler, SurfacePoint};
+pub use exact::{Curve, OffsetSurface, Shape, nurbs};
+pub use features::Fixtures;
+pub use fields::chart;
 pub use fold::split_folds;
-pub use group::{Group, Symmetries};
-pub use locate::Locator;
-pub use model::{Model, PolygonMesh, Sampling};
-pub use motion::Motion;
-pub use offset::OffsetSurface;
+pub use model::{Model, PolygonMesh, Smoothing};
 pub use origin::Origin;
-pub use ruler::Ruler;
-pub use sew::{Sewing, sew};
-pub use shape::Shape;
-pub use smooth::{Smooth, Smoothing};
+pub use sampling::Sampling;
+pub use sew::sew;
+pub use smooth::Smooth;
 pub use source::{Loss, Object, Source, Unit};
+pub use symmetry::{Group, Motion, Symmetries};
 pub use tessellate::tessellate;
 
-pub(crate) use seam::bound;
+pub(crate) use tessellate::bound;
 
+use carrier::track::Tracks;
 use glam::DVec3;
-use track::Tracks;
 
 /// What runs so many times as far away from all else in a file as that is long comes from a wrong number: a face from the
 /// model's edges, a vertex from all others. Sound models stay within two; a wrong digit in front that gets by costs as

@@ -6,8 +6,6 @@
 //! coordinate is *local*. Both ways are exact but for the file's own rounding: by Sterbenz' lemma the difference of two
 //! doubles is one where neither is twice the other.
 
-use super::{Brep, Model, PolygonMesh};
-use crate::error::Result;
 use glam::DVec3;
 
 /// A model is moved along an axis where its middle is further out than this many of its sizes, rounded up to a power
@@ -75,55 +73,6 @@ fn step(size: f64) -> f64 {
         step *= 10.0;
     }
     step
-}
-
-impl Model {
-    /// Where its coordinates have their origin in those of its file.
-    pub fn origin(&self) -> Origin {
-        match self {
-            Model::Brep(brep) => brep.origin,
-            Model::Mesh(mesh) => mesh.origin,
-        }
-    }
-
-    /// Move a model in its file's coordinates to near the origin, if it is far from it.
-    ///
-    /// # Errors
-    /// [`Error::Surface`](crate::Error::Surface) for a shape that cannot be moved; files have none.
-    pub fn settle(&mut self) -> Result<()> {
-        match self {
-            Model::Brep(brep) => brep.settle(),
-            Model::Mesh(mesh) => {
-                mesh.settle();
-                Ok(())
-            }
-        }
-    }
-}
-
-impl PolygonMesh {
-    /// As [`Model::settle`].
-    pub fn settle(&mut self) {
-        let far = Origin::of_points(&self.points);
-        if self.origin.is_near() && !far.is_near() {
-            self.origin = far;
-            for p in &mut self.points {
-                *p = far.local(*p);
-            }
-        }
-    }
-}
-
-impl Brep {
-    fn settle(&mut self) -> Result<()> {
-        let (low, high) = super::size::bounds(self);
-        let far = Origin::of_box(low, high);
-        if !self.origin.is_near() || far.is_near() {
-            return Ok(());
-        }
-        self.origin = far;
-        self.replace(1.0, &|p| far.local(p))
-    }
 }
 
 #[cfg(test)]

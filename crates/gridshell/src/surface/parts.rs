@@ -101,23 +101,6 @@ fn mesh_of(mesh: &PolygonMesh, faces: &[u32]) -> PolygonMesh {
     PolygonMesh { points, faces, ..mesh.without_faces() }
 }
 
-impl PolygonMesh {
-    /// All but points and faces.
-    pub(super) fn without_faces(&self) -> PolygonMesh {
-        let (points, faces) = (Vec::new(), Vec::new());
-        let (name, source, notes) = (self.name.clone(), self.source.clone(), self.notes.clone());
-        PolygonMesh {
-            name,
-            origin: self.origin,
-            points,
-            faces,
-            source,
-            notes,
-            smoothing: self.smoothing,
-        }
-    }
-}
-
 /// New numbers in order of first use.
 #[derive(Default)]
 struct Numbers {

@@ -3,7 +3,7 @@
 use super::curves::Arc;
 use super::{Fault, File};
 use crate::surface::brep::{Brep, BrepEdge, Coedge};
-use crate::surface::project::Seeds;
+use crate::surface::exact::project::Seeds;
 use crate::surface::{Curve, Shape};
 use glam::{DVec2, DVec3};
 

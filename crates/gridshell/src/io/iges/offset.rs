@@ -3,7 +3,7 @@
 use super::directory::Parameters;
 use super::surfaces::Sheet;
 use super::{Fault, File};
-use crate::surface::project::Seeds;
+use crate::surface::exact::project::Seeds;
 use crate::surface::{OffsetSurface, Shape};
 use glam::{DVec2, DVec3};
 

@@ -8,7 +8,7 @@ use crate::io::{Choice, LengthUnit, Opening, weld};
 use crate::job::Job;
 use crate::surface::brep::{BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::{NurbsCurve, NurbsSurface};
-use crate::surface::{Curve, Loss, PolygonMesh, Shape, ear};
+use crate::surface::{Curve, Loss, PolygonMesh, Shape, polygon::triangulate};
 use cadmpeg_ir::tessellation::Tessellation;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -186,7 +186,7 @@ impl Reading<'_> {
         self.brep.vertices.extend(&mesh.points);
         let mut edges: BTreeMap<(u32, u32), u32> = BTreeMap::new();
         let mut triangles = Vec::new();
-        mesh.faces.iter().for_each(|face| ear::split(&mesh.points, face, &mut triangles));
+        mesh.faces.iter().for_each(|face| triangulate::split(&mesh.points, face, &mut triangles));
         for t in triangles {
             let Some(shape) = plane(t.map(|v| mesh.points[v as usize])) else { continue };
             let sides = [0, 1, 2].map(|k| (t[k], t[(k + 1) % 3]));

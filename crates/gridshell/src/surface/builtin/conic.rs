@@ -2,7 +2,7 @@
 
 use super::known;
 use crate::math::trig::{cos, sin};
-use crate::surface::nurbs::NurbsCurve;
+use crate::surface::exact::nurbs::NurbsCurve;
 use glam::DVec3;
 use std::f64::consts::FRAC_1_SQRT_2;
 

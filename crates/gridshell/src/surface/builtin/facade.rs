@@ -4,7 +4,7 @@
 use super::known;
 use super::sketch::{Sketch, against, along};
 use super::spline::clamped_knots;
-use crate::surface::nurbs::NurbsCurve;
+use crate::surface::exact::nurbs::NurbsCurve;
 use crate::surface::{Brep, Shape};
 use glam::DVec3;
 

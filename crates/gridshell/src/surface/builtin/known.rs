@@ -1,6 +1,6 @@
 //! B-splines written out in this room: right by construction.
 
-use crate::surface::nurbs::{NurbsCurve, NurbsSurface};
+use crate::surface::exact::nurbs::{NurbsCurve, NurbsSurface};
 use glam::DVec3;
 
 pub(super) fn curve(

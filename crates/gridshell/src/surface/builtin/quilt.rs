@@ -3,7 +3,7 @@
 use super::known;
 use super::sketch::{Sketch, against, along};
 use crate::surface::Shape;
-use crate::surface::nurbs::NurbsCurve;
+use crate::surface::exact::nurbs::NurbsCurve;
 use glam::DVec3;
 
 /// A control point and its weight.

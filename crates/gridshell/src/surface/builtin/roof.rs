@@ -5,7 +5,7 @@ use super::known;
 use super::sketch::{Sketch, against, along};
 use super::spline::{clamped, clamped_knots, closed, greville};
 use crate::math::trig::exp;
-use crate::surface::nurbs::NurbsCurve;
+use crate::surface::exact::nurbs::NurbsCurve;
 use crate::surface::{Brep, Curve, Shape};
 use glam::DVec3;
 use std::sync::Arc;

@@ -2,7 +2,7 @@
 
 use super::conic::arc;
 use super::sketch::{Sketch, along};
-use crate::surface::nurbs::NurbsCurve;
+use crate::surface::exact::nurbs::NurbsCurve;
 use crate::surface::{Brep, Curve, Shape};
 use glam::DVec3;
 use std::sync::Arc;

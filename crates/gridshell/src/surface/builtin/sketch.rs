@@ -1,9 +1,9 @@
 //! Putting a B-rep together by hand: vertices, edges, faces.
 
 use super::conic;
-use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
-use crate::surface::nurbs::NurbsCurve;
-use crate::surface::{Curve, Shape};
+use crate::surface::brep::{BrepEdge, BrepFace, Coedge};
+use crate::surface::exact::nurbs::NurbsCurve;
+use crate::surface::{Brep, Curve, Shape};
 use glam::DVec3;
 
 /// A B-rep in the making. Metres.

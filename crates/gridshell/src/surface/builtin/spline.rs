@@ -1,7 +1,7 @@
 //! Cubic B-splines from control points.
 
 use super::known;
-use crate::surface::nurbs::NurbsCurve;
+use crate::surface::exact::nurbs::NurbsCurve;
 use glam::DVec3;
 
 /// Knots of a clamped cubic over [start, end] with `count` control points.

@@ -5,7 +5,7 @@ use super::*;
 use crate::job::Job;
 use crate::math::trig::{acos, cos, sin};
 use crate::surface::brep::{BrepEdge, BrepFace, Coedge};
-use crate::surface::nurbs::NurbsCurve;
+use crate::surface::exact::nurbs::NurbsCurve;
 use crate::surface::{Sampling, Shape, Surface};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};

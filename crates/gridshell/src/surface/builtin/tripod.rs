@@ -3,7 +3,7 @@
 use super::conic::arc;
 use super::sketch::{Sketch, along};
 use crate::math::trig::{cos, sin};
-use crate::surface::nurbs::NurbsCurve;
+use crate::surface::exact::nurbs::NurbsCurve;
 use crate::surface::{Brep, Curve, Shape};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_3, TAU};

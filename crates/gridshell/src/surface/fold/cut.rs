@@ -8,10 +8,9 @@ use super::draft::Draft;
 use super::lines::{Line, Lines};
 use super::ring::{self, Piece, Ring, Spot, area, holds};
 use crate::surface::brep::BrepEdge;
-use crate::surface::curve::Curve;
-use crate::surface::nurbs::{NurbsCurve, NurbsSurface};
-use crate::surface::shape::Shape;
-use crate::surface::trim::Edges;
+use crate::surface::exact::nurbs::{NurbsCurve, NurbsSurface};
+use crate::surface::tessellate::trim::Edges;
+use crate::surface::{Curve, Shape};
 use glam::{DVec2, DVec3};
 
 /// Steps to where an edge meets a line at most.

@@ -2,8 +2,8 @@
 
 use super::cut::Cell;
 use super::ring::Piece;
-use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
-use crate::surface::curve::Curve;
+use crate::surface::brep::{BrepEdge, BrepFace, Coedge};
+use crate::surface::{Brep, Curve};
 use glam::DVec3;
 
 /// Edges and vertices, old and new, and where edges are parted.

@@ -1,8 +1,8 @@
 //! Where a patch folds: lines of constant u or v at knots as frequent as the degree, where its normal jumps.
 
 use crate::math::trig;
-use crate::surface::nurbs::NurbsSurface;
-use crate::surface::shape::Shape;
+use crate::surface::Shape;
+use crate::surface::exact::nurbs::NurbsSurface;
 use glam::DVec2;
 
 /// The normal jumps where it turns by more than this, radians: less is rounding of knots and points.

@@ -13,12 +13,11 @@ mod ring;
 #[cfg(test)]
 mod tests;
 
-use super::brep::Brep;
-use super::model::Sampling;
-use super::nurbs::NurbsSurface;
-use super::shape::Shape;
-use super::trim::{Edges, Polyline, Tracer};
-use super::{Curve, PREPARING, poles, sample, seam, size};
+use super::exact::nurbs::NurbsSurface;
+use super::model::size;
+use super::tessellate::trim::{Edges, Polyline, Tracer};
+use super::tessellate::{edges, poles, seam};
+use super::{Brep, Curve, PREPARING, Sampling, Shape};
 use crate::error::Result;
 use crate::job::Job;
 use crate::words;
@@ -181,7 +180,7 @@ fn sampled(brep: &Brep, folded: &[(usize, Lines)]) -> (Vec<DVec3>, Vec<Polyline>
         let length: f64 = looks.windows(2).map(|w| w[0].distance(w[1])).sum();
         let fine =
             Sampling { max_edge: length / PIECES, chord_error: length * BULGE, corner_angle: 0.5 };
-        let t = (length > 0.0).then(|| sample::parameters(e, &fine)).flatten();
+        let t = (length > 0.0).then(|| edges::parameters(e, &fine)).flatten();
         let t = t.unwrap_or(vec![a, b]);
         let mut vertices = vec![e.ends[0]];
         for &t in &t[1..t.len() - 1] {

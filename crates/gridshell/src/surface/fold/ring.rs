@@ -1,8 +1,8 @@
 //! Loops of a face as rings of pieces in (u, v), the face to their left.
 
+use crate::surface::Shape;
 use crate::surface::brep::BrepFace;
-use crate::surface::shape::Shape;
-use crate::surface::trim::{Run, Tracer};
+use crate::surface::tessellate::trim::{Run, Tracer};
 use glam::DVec2;
 
 /// A place farther than this from its foot, over the distance between the places beside it, is looked for again.

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::surface::brep::{BrepEdge, BrepFace, Coedge};
-use crate::surface::nurbs::NurbsCurve;
+use crate::surface::exact::nurbs::NurbsCurve;
 use crate::surface::{Fixtures, Surface, tessellate};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;

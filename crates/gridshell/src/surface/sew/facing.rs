@@ -1,9 +1,9 @@
 //! Edges that are still naked although another naked edge runs beside them: gaps that a larger tolerance would sew.
 
+use super::PHASE;
 use super::naked::Naked;
-use super::{PHASE, Sewing};
 use crate::job::Job;
-use crate::surface::Brep;
+use crate::surface::{Brep, Sewing};
 
 /// Looks along each edge.
 const LOOKS: usize = 16;

@@ -14,13 +14,14 @@ mod pair;
 mod split;
 
 use super::Brep;
-use super::seam;
+use super::Sewing;
+use super::model::size;
+use super::tessellate::seam;
 use crate::error::{Error, Result};
 use crate::job::{Job, Picture};
 use crate::math::digits::three;
 use crate::words;
 use naked::Naked;
-use serde::Serialize;
 
 /// What a stop in here is told as. Once the job is over, what is found is of no use: [`sew`] checks.
 const PHASE: &str = "sewing";
@@ -35,30 +36,13 @@ const ROUNDING: f64 = 1e-13;
 /// Naked edges with another within so many usual tolerances are told.
 const REACH: f64 = 32.0;
 
-/// What sewing found and did. Lengths in metres.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Sewing {
-    /// Gaps up to this were sewn.
-    pub tolerance: f64,
-    /// Pairs of edges that became one.
-    pub joints: usize,
-    /// Largest distance between two edges that became one.
-    pub largest_gap: f64,
-    /// Edges that are still naked although another naked one runs beside them.
-    pub facing: usize,
-    /// Their length together.
-    pub facing_length: f64,
-    /// How far the others are away, at most.
-    pub facing_gap: f64,
-}
-
 /// Sew `brep` in place: with `tolerance` metres, or with what its file or its size suggests. What was found is in
 /// `brep.sewing` and, in words, among its notes.
 ///
 /// # Errors
 /// [`Error::Option`] where the tolerance asked for is no length, or so large that it would close the model itself.
 pub fn sew(brep: &mut Brep, tolerance: Option<f64>, job: &Job) -> Result<()> {
-    let size = super::size::of_brep(brep);
+    let size = size::of_brep(brep);
     if let Some(given) = tolerance {
         check(given, size)?;
     }

@@ -2,9 +2,8 @@
 
 use super::PHASE;
 use crate::job::Job;
-use crate::surface::Brep;
 use crate::surface::brep::BrepEdge;
-use crate::surface::curve::Curve;
+use crate::surface::{Brep, Curve};
 use glam::DVec3;
 use rstar::{AABB, RTree, RTreeObject};
 

@@ -6,7 +6,7 @@ use super::PHASE;
 use super::split::{Piece, Pieces};
 use crate::job::Job;
 use crate::surface::Brep;
-use crate::surface::project::Seeds;
+use crate::surface::exact::project::Seeds;
 use glam::{DVec2, DVec3};
 
 /// Gaps below this share of the tolerance count as none when pairs are chosen.

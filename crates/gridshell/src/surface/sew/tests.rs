@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::surface::brep::BrepFace;
-use crate::surface::nurbs::NurbsSurface;
+use crate::surface::exact::nurbs::NurbsSurface;
 use crate::surface::{Sampling, Shape, Surface, tessellate};
 use glam::DVec3;
 

@@ -3,7 +3,7 @@
 use super::net::Net;
 use super::patch::square_to;
 use crate::math::trig;
-use crate::surface::chain::exceeds;
+use crate::surface::carrier::chain::exceeds;
 use glam::DVec3;
 
 /// Where two sides turn so plainly, a line between them runs as their planes meet.

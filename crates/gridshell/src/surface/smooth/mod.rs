@@ -14,14 +14,13 @@ mod pieces;
 #[cfg(test)]
 mod tests;
 
-use super::PolygonMesh;
+use super::{PolygonMesh, Smoothing};
 use crate::error::Result;
 use crate::job::Job;
 use lines::Lines;
 use net::Net;
 use patch::{Arc, Patch, Side};
 use pieces::Pieces;
-use serde::Serialize;
 
 /// Vertices nearer to one another than this many chord errors are one place to the grid.
 const NEAR: f64 = 10.0;
@@ -37,15 +36,6 @@ pub struct Smooth {
     pub corner_angle: f64,
     /// Edges where faces turn by more than this stay sharp.
     pub crease_angle: f64,
-}
-
-/// What smoothing did. Metres.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Smoothing {
-    /// Longest edge of the mesh as it was.
-    pub longest_edge: f64,
-    /// Largest distance of the smooth surface from the mesh.
-    pub departure: f64,
 }
 
 impl PolygonMesh {

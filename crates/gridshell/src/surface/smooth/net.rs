@@ -1,9 +1,10 @@
 //! The mesh in triangles, with what each face is: what normals and patches are worked out on.
 
-use super::super::carrier::{NONE, adjacency};
-use super::super::ear::newell;
-use super::super::{PolygonMesh, cap};
 use crate::math::trig;
+use crate::surface::PolygonMesh;
+use crate::surface::carrier::{NONE, adjacency};
+use crate::surface::polygon::caps;
+use crate::surface::polygon::triangulate::newell;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -27,7 +28,7 @@ impl Net {
         let (mut triangles, face) = mesh.split(&mut points);
         let pieces = triangles.iter().zip(face);
         let known: BTreeMap<[u32; 3], u32> = pieces.map(|(&t, f)| (sorted(t), f)).collect();
-        cap::flatten(&points, &mut triangles);
+        caps::flatten(&points, &mut triangles);
         // What was flipped belongs to two faces: it stands for itself.
         let mut faces = mesh.faces.clone();
         let face = triangles.iter().map(|t| {

@@ -6,12 +6,12 @@
 //!
 //! Each side of a line has a normal of its own. Where a line runs on smoothly, the normal is square to it.
 
-use super::super::carrier::NONE;
 use super::lines::Lines;
 use super::net::Net;
 use super::patch::square_to;
 use crate::math::least::least_squares;
 use crate::math::trig;
+use crate::surface::carrier::NONE;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -3,10 +3,10 @@
 //! Edges that leave their chord by too much are halved, in both triangles beside them; with them the longest edge of
 //! each triangle, which keeps the angles from shrinking (Rivara 1984).
 
-use super::super::locate::nearest_in_triangle;
-use super::super::polygon::{MAX_TRIANGLES, divide};
 use super::{NEAR, Smooth, Web};
 use crate::error::{Error, Result};
+use crate::surface::carrier::locate::nearest_in_triangle;
+use crate::surface::polygon::{MAX_TRIANGLES, divide};
 use glam::DVec3;
 use std::collections::HashMap;
 
