@@ -1,11 +1,9 @@
 //! The arguments.
 
-use crate::picture::colour::Coloring;
-use crate::picture::label::Labels;
-use crate::picture::sheet::{Paper, Sheet};
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use gridshell::io::{Choice, Follow, LengthUnit, Opening};
 use gridshell::job;
+use gridshell_report::picture::{Coloring, Labels, Paper, Sheet};
 use std::path::PathBuf;
 
 /// Triangular grids for free-form gridshells.

@@ -4,11 +4,12 @@ use crate::Outcome;
 use crate::args::Generate;
 use crate::failure::Failure;
 use crate::progress::Work;
-use crate::{handover, recipe, report, say, table};
+use crate::{handover, recipe, say, table};
 use gridshell::design::Design;
 use gridshell::io::{self, Document};
 use gridshell::job::Job;
 use gridshell::pipeline;
+use gridshell_report::page;
 use std::path::{Path, PathBuf};
 
 pub fn run(args: &Generate, work: &Work) -> Result<Outcome, Failure> {
@@ -16,7 +17,7 @@ pub fn run(args: &Generate, work: &Work) -> Result<Outcome, Failure> {
     let again = again(&args.surface, job)?;
     let recipe = recipe::from_args(args, again.as_ref().and_then(|d| d.recipe.as_ref()), job)?;
     args.output.iter().try_for_each(|path| handover::check_output(path))?;
-    args.report.as_deref().map_or(Ok(()), report::check)?;
+    args.report.as_deref().map_or(Ok(()), page::check).map_err(Failure::of_output)?;
     let structure = handover::structure(&args.handover)?;
     let supports = handover::supports(&args.handover, job)?;
     let opening = args.reading.opening();
@@ -54,7 +55,7 @@ pub fn run(args: &Generate, work: &Work) -> Result<Outcome, Failure> {
     let (mut wrote, written) = handover::write_all(&outputs, &design, job);
     let mut reported = Ok(());
     if let Some(path) = &args.report {
-        reported = report::write(path, &report::page(&design));
+        reported = page::write(path, &page::of(&design)).map_err(Failure::of_output);
         if reported.is_ok() {
             wrote.push(format!("wrote {}", path.display()));
         }

@@ -4,9 +4,10 @@ use crate::Outcome;
 use crate::args::Inspect;
 use crate::failure::Failure;
 use crate::progress::Work;
-use crate::{picture, say, table};
+use crate::{say, table};
 use gridshell::inspect::{self, Inspection};
 use gridshell::io;
+use gridshell_report::picture;
 use serde::Serialize;
 
 /// The document of `--json`.
@@ -21,7 +22,7 @@ struct Document {
 
 pub fn run(args: &Inspect, work: &Work) -> Result<Outcome, Failure> {
     let job = &work.job;
-    args.picture.iter().try_for_each(|file| picture::check(file))?;
+    args.picture.iter().try_for_each(|file| picture::check(file)).map_err(Failure::of_output)?;
     let opening = args.reading.opening();
     let model = io::open_with(&args.surface, &opening, job).map_err(Failure::of_input)?;
     // Notes are among the results.
@@ -30,7 +31,11 @@ pub fn run(args: &Inspect, work: &Work) -> Result<Outcome, Failure> {
     let mut drawn = Ok(());
     if !args.picture.is_empty() {
         let sketch = inspect::sketch(&model, job)?;
-        drawn = Failure::all(args.picture.iter().map(|file| picture::draw(&sketch, file)));
+        drawn = Failure::all(
+            args.picture
+                .iter()
+                .map(|file| picture::draw(&sketch, file).map_err(Failure::of_output)),
+        );
     }
     work.told();
     if args.json {

@@ -5,17 +5,14 @@ mod compare;
 mod convert;
 mod draw;
 mod edit;
-mod facts;
 mod failure;
 mod generate;
 mod handover;
 mod inspect;
 mod measure;
 mod open;
-mod picture;
 mod progress;
 mod recipe;
-mod report;
 mod say;
 #[cfg(feature = "studio")]
 mod studio;

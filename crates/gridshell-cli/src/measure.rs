@@ -4,11 +4,12 @@ use crate::Outcome;
 use crate::args::Measure;
 use crate::failure::Failure;
 use crate::progress::Work;
-use crate::{open, report, say, table};
+use crate::{open, say, table};
 use gridshell::run::SurfaceSummary;
 use gridshell::schedule::Figures;
 use gridshell::stages::measure::{IrregularNode, Quality, irregular_nodes};
 use gridshell::validity::Fault;
+use gridshell_report::page;
 use serde::Serialize;
 
 /// The document of `--json`.
@@ -32,13 +33,13 @@ struct Document<'a> {
 
 pub fn run(args: &Measure, work: &Work) -> Result<Outcome, Failure> {
     let job = &work.job;
-    args.report.as_deref().map_or(Ok(()), report::check)?;
+    args.report.as_deref().map_or(Ok(()), page::check).map_err(Failure::of_output)?;
     let design = open::open(&args.grid, job)?;
     let (quality, figures) = (&design.quality, &design.schedule.figures);
     work.told();
     let mut reported = Ok(());
     if let Some(path) = &args.report {
-        reported = report::write(path, &report::page(&design));
+        reported = page::write(path, &page::of(&design)).map_err(Failure::of_output);
         if reported.is_ok() {
             say::note(&format!("wrote {}", path.display()));
         }

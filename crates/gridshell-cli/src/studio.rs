@@ -4,7 +4,7 @@ use crate::Outcome;
 use crate::args::{Limits, Studio};
 use crate::failure::Failure;
 use crate::progress::memory_limit;
-use crate::{report, say};
+use crate::say;
 use gridshell_studio::{Error, Options, Redirect};
 use std::env;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,6 @@ pub fn run(args: &Studio, limits: &Limits) -> Result<Outcome, Failure> {
         log: Arc::new(say::note),
         page: args.page.clone(),
         state: args.state.clone().or_else(state).filter(|_| !args.no_autosave),
-        report: Some(report::page),
     };
     let told = |address: &str| {
         // Who started it needs the address even where nothing reads standard output any more.

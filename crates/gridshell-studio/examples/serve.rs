@@ -8,8 +8,7 @@ fn main() -> Result<(), gridshell_studio::Error> {
     let surface = arguments.next().unwrap_or_else(|| "great-court".into());
     let log = Arc::new(|line: &str| eprintln!("{line}"));
     let page = arguments.next().map(Into::into);
-    let options =
-        Options { surface, port: 0, log, page, state: None, report: None, memory_limit: None };
+    let options = Options { surface, port: 0, log, page, state: None, memory_limit: None };
     run(options, |address| {
         println!("{address}");
         None

@@ -5,15 +5,13 @@ use gridshell::design::Design;
 use gridshell::error::{Error, Result};
 use gridshell::job::Job;
 use gridshell::stages::measure::irregular_nodes;
+use gridshell_report::page;
 use serde_json::{Value, json};
 use std::fmt::Display;
 use std::io::{Cursor, Write};
 use std::path::PathBuf;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
-
-/// Makes one page of HTML on a design.
-pub type Report = fn(&Design) -> String;
 
 /// A file to be taken away.
 pub struct Exported {
@@ -25,11 +23,11 @@ pub struct Exported {
     pub version: u32,
 }
 
-/// What a grid is in the format of this extension; `report` makes its page.
+/// What a grid is in the format of this extension.
 ///
 /// # Errors
 /// [`Error::Option`] where it cannot be written.
-pub fn file(laid: &Laid, extension: &str, report: Option<Report>) -> Result<Exported> {
+pub fn file(laid: &Laid, extension: &str) -> Result<Exported> {
     let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
     let name: String = laid.design.document.name.chars().map(plain).collect();
     let name = format!("{name}-{}.{extension}", laid.number);
@@ -38,10 +36,7 @@ pub fn file(laid: &Laid, extension: &str, report: Option<Report>) -> Result<Expo
     let bytes = match extension {
         "run.json" => serde_json::to_vec_pretty(&run(&design)).map_err(|e| unwritten(&e))?,
         "edits.json" => laid.log().to_json().into_bytes(),
-        "report.html" => {
-            let report = report.ok_or_else(|| unwritten(&"this program makes no reports"))?;
-            report(&design).into_bytes()
-        }
+        "report.html" => page::of(&design).into_bytes(),
         _ => {
             let folder = tempfile::tempdir().map_err(|e| unwritten(&e))?;
             let path = folder.path().join(name.trim_end_matches(".zip"));

@@ -117,7 +117,7 @@ mod tests {
                 wishes.send(Wish::Suggest { run }).await.unwrap();
             }
             drop(wishes);
-            answer_all(lane, waiting, Arc::new(Desk::new(None, None)), answers).await;
+            answer_all(lane, waiting, Arc::new(Desk::new(None)), answers).await;
             let Some(Outgoing::Event(told)) = answered.recv().await else { panic!("no answer") };
             assert!(format!("{told:?}").contains("there is no run 3"), "{told:?}");
             assert!(answered.recv().await.is_none(), "one answer");

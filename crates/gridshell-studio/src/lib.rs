@@ -37,7 +37,6 @@ mod session;
 mod tab;
 mod told;
 
-pub use export::Report;
 pub use redirect::Redirect;
 pub use server::Log;
 pub use tab::Tab;
@@ -69,8 +68,6 @@ pub struct Options {
     pub page: Option<PathBuf>,
     /// The folder where grids are kept against crashes; without it they are not.
     pub state: Option<PathBuf>,
-    /// Makes a page on a grid; without it no reports can be exported.
-    pub report: Option<Report>,
     /// What the process may hold in memory before work is refused or stopped, bytes.
     pub memory_limit: Option<u64>,
 }
@@ -114,7 +111,7 @@ impl Studio {
     /// # Errors
     /// [`Error`].
     pub async fn bind(options: Options) -> Result<Studio, Error> {
-        let desk = Arc::new(Desk::new(options.report, options.memory_limit));
+        let desk = Arc::new(Desk::new(options.memory_limit));
         desk.open(&options.surface).map_err(Error::Surface)?;
         if let Some(folder) = &options.state
             && let Err(e) = desk.keep_in(folder, Arc::clone(&options.log))

@@ -17,7 +17,7 @@ pub struct Tab {
 
 impl Default for Tab {
     fn default() -> Tab {
-        let mut tab = Tab { desk: Arc::new(Desk::new(None, None)), run: 0 };
+        let mut tab = Tab { desk: Arc::new(Desk::new(None)), run: 0 };
         tab.say(&json!({ "kind": "open", "name": "hexagon" }).to_string());
         let values = json!({ "edge_length": 2.0, "effort": "draft" });
         tab.ask(&json!({ "kind": "generate", "values": values }).to_string());

@@ -27,7 +27,7 @@ pub const ACCEPTS: [&str; 13] = [
 /// Extensions of the files that can be exported.
 pub const EXPORTS: [(&str, &str); 16] = [
     ("gridshell", "gridshell: grid, surface, recipe and edits, to go on with"),
-    (REPORT, "Report: one page with pictures, measures and tables"),
+    ("report.html", "Report: one page with pictures, measures and tables"),
     ("csv.zip", "CSV: schedules of nodes, members and panels"),
     ("obj", "OBJ: panels, and members as lines"),
     ("dxf", "DXF: members, panels and nodes in layers"),
@@ -43,13 +43,11 @@ pub const EXPORTS: [(&str, &str); 16] = [
     ("run.json", "JSON: the run document, all measures"),
     ("edits.json", "JSON: the log of edits, for `gridshell edit`"),
 ];
-/// The extension of reports, which not every program can make.
-pub const REPORT: &str = "report.html";
 /// Largest file that can be opened, bytes.
 pub const UPLOAD_LIMIT: usize = 64 << 20;
 
-/// What there is; `reports` says whether reports can be made.
-pub fn hello(reports: bool) -> Hello {
+/// What there is.
+pub fn hello() -> Hello {
     let named = |name: &str, description: &str| Named {
         name: name.into(),
         description: description.into(),
@@ -60,11 +58,7 @@ pub fn hello(reports: bool) -> Hello {
         form: form::fields(),
         colorings: color::colorings(),
         accepts: ACCEPTS.map(str::to_owned).to_vec(),
-        exports: EXPORTS
-            .iter()
-            .filter(|e| reports || e.0 != REPORT)
-            .map(|e| named(e.0, e.1))
-            .collect(),
+        exports: EXPORTS.iter().map(|e| named(e.0, e.1)).collect(),
         upload_limit: UPLOAD_LIMIT as u32,
     }
 }

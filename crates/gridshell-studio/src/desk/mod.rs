@@ -4,7 +4,7 @@ mod answer;
 mod files;
 mod room;
 
-use crate::export::{self, Exported, Report};
+use crate::export::{self, Exported};
 use crate::form::{self, Values};
 use crate::laid::Laid;
 use crate::laying::{self, Going};
@@ -58,7 +58,6 @@ struct State {
 /// The desk. Its state is locked for moments only, never while anything is worked on, read or written: so tabs are
 /// greeted and work is cancelled at any time.
 pub struct Desk {
-    report: Option<Report>,
     memory_limit: Option<u64>,
     state: Mutex<State>,
     events: broadcast::Sender<Outgoing>,
@@ -66,10 +65,9 @@ pub struct Desk {
 }
 
 impl Desk {
-    /// An empty desk; `report` makes pages on its grids, `memory_limit` is in bytes.
-    pub fn new(report: Option<Report>, memory_limit: Option<u64>) -> Desk {
+    /// An empty desk; `memory_limit` is in bytes.
+    pub fn new(memory_limit: Option<u64>) -> Desk {
         Desk {
-            report,
             memory_limit,
             state: Mutex::default(),
             events: broadcast::channel(BACKLOG).0,
@@ -90,7 +88,7 @@ impl Desk {
     /// Everything that a new tab has to know.
     pub fn greeting(&self) -> Vec<Outgoing> {
         let state = self.state();
-        let mut all = vec![Outgoing::Event(Event::Hello(told::hello(self.report.is_some())))];
+        let mut all = vec![Outgoing::Event(Event::Hello(told::hello()))];
         if let Some(opened) = &state.opened {
             all.extend(shown(opened));
         }
@@ -214,7 +212,7 @@ impl Desk {
             return Err(Error::Option(format!("no format `{extension}`")));
         }
         let laid = self.laid(run)?;
-        export::file(&laid, extension, self.report)
+        export::file(&laid, extension)
     }
 
     fn opened(&self) -> Result<Arc<Opened>> {

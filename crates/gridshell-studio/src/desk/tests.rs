@@ -8,7 +8,7 @@ use std::sync::mpsc::channel;
 use std::time::Duration;
 
 fn desk() -> Arc<Desk> {
-    Arc::new(Desk::new(None, None))
+    Arc::new(Desk::new(None))
 }
 
 /// A desk that keeps its grids in `state`.

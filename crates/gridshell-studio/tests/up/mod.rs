@@ -34,7 +34,6 @@ pub async fn up() -> Up {
         log: Arc::new(move |line: &str| lines.lock().unwrap().push(line.to_owned())),
         page: Some(PathBuf::from(page.path())),
         state: None,
-        report: Some(|grid| format!("{} nodes", grid.grid.xyz.len())),
         memory_limit: None,
     };
     let studio = Studio::bind(options).await.unwrap();

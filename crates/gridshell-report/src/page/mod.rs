@@ -7,21 +7,20 @@ mod pictures;
 mod tables;
 mod viewer;
 
-use crate::failure::Failure;
 use crate::picture::colour::{Coloring, Colours};
 use crate::picture::svg::escaped;
 use crate::picture::view::View;
 use gridshell::design::Design;
-use gridshell::io;
 use gridshell::run::{Run, SurfaceSummary};
+use gridshell::{Error, Result, io};
 use std::path::Path;
 
-pub use pictures::{Colored, plan, style};
+pub(crate) use pictures::{Colored, plan, style};
 
 const STYLE: &str = include_str!("page.css");
 
 /// The colourings that the page can show, by the names that its script and its style know them by.
-pub const COLORINGS: [(&str, &str, Coloring); 5] = [
+pub(crate) const COLORINGS: [(&str, &str, Coloring); 5] = [
     ("length", "length", Coloring::Length),
     ("disfluency", "angle disfluency", Coloring::Disfluency),
     ("degree", "degree of nodes", Coloring::Degree),
@@ -30,20 +29,26 @@ pub const COLORINGS: [(&str, &str, Coloring); 5] = [
 ];
 
 /// Refuse a file that is no page, or cannot be written, before the work is done.
-pub fn check(file: &Path) -> Result<(), Failure> {
+///
+/// # Errors
+/// [`Error::Option`] for another extension, or a folder that is not there; [`Error::Io`].
+pub fn check(file: &Path) -> Result<()> {
     if !file.extension().is_some_and(|e| e.eq_ignore_ascii_case("html")) {
-        return Err(Failure::usage(format!("{}: a page must end in .html", file.display())));
+        return Err(Error::Option(format!("{}: a page must end in .html", file.display())));
     }
-    io::check_place(file).map_err(Failure::of_output)
+    io::check_place(file)
 }
 
 /// Write a page; it appears whole or not at all.
-pub fn write(file: &Path, page: &str) -> Result<(), Failure> {
-    io::replace(file, page.as_bytes()).map_err(Failure::other)
+///
+/// # Errors
+/// As [`check`].
+pub fn write(file: &Path, page: &str) -> Result<()> {
+    io::replace(file, page.as_bytes())
 }
 
 /// The page of a grid, and of the run that made it if there is one: that tells of the grid before edits.
-pub fn page(design: &Design) -> String {
+pub fn of(design: &Design) -> String {
     let run = design.run.as_deref();
     let colored: Vec<Colored> = COLORINGS
         .iter()
@@ -79,7 +84,7 @@ pub fn page(design: &Design) -> String {
 }
 
 /// A page of these parts.
-pub fn whole(title: &str, style: &str, body: &str) -> String {
+pub(crate) fn whole(title: &str, style: &str, body: &str) -> String {
     format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" \
          content=\"width=device-width, initial-scale=1\"><title>{}</title>\n<style>\n{STYLE}\n{style}</style></head>\n\

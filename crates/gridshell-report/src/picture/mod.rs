@@ -4,63 +4,75 @@
 //! `view` and `frame` say where things are seen, `colour` what colours mean, `scene` what lies before what; `sheet` and
 //! `model` put it on paper as a `drawing`, which `svg`, `png` and `pdf` write.
 
-pub mod colour;
-pub mod drawing;
-pub mod frame;
+pub(crate) mod colour;
+pub(crate) mod drawing;
+pub(crate) mod frame;
 mod glyphs;
 mod hidden;
-pub mod label;
+pub(crate) mod label;
 mod legend;
 mod light;
 mod model;
 mod palette;
 mod pdf;
 mod png;
-pub mod scene;
-pub mod sheet;
+pub(crate) mod scene;
+pub(crate) mod sheet;
 mod small;
-pub mod svg;
-pub mod view;
+pub(crate) mod svg;
+pub(crate) mod view;
 
-pub use light::lit;
+pub use colour::Coloring;
+pub use label::Labels;
+pub(crate) use light::lit;
+pub use sheet::{Paper, Sheet, Wish};
 
-use crate::failure::Failure;
 use drawing::{Drawing, Unit};
 use gridshell::design::Design;
 use gridshell::inspect::Sketch;
-use gridshell::io;
+use gridshell::{Error, Result, io};
 use std::path::Path;
 
 /// The legend of a scale by itself, as SVG.
-pub fn legend_of(scale: &colour::Scale) -> String {
+pub(crate) fn legend_of(scale: &colour::Scale) -> String {
     let mut drawing = Drawing::new([280.0, 172.0], Unit::Pixel, scale.title.to_owned());
     legend::colours(&mut drawing, scale, [6.0, 10.0], 268.0, 12.0);
     svg::encode(&drawing)
 }
 
-/// Whether a picture can be drawn to this file: to be asked before the work.
-pub fn check(file: &Path) -> Result<(), Failure> {
+/// Refuse a file that is no picture, or cannot be written, before the work is done.
+///
+/// # Errors
+/// [`Error::Option`] for an extension that is not known, or a folder that is not there; [`Error::Io`].
+pub fn check(file: &Path) -> Result<()> {
     kind(file)?;
-    io::check_place(file).map_err(Failure::of_output)
+    io::check_place(file)
 }
 
-/// Draw a model to a file.
-pub fn draw(sketch: &Sketch, file: &Path) -> Result<(), Failure> {
+/// Draw a model in plan and perspective to a file.
+///
+/// # Errors
+/// As [`check`].
+pub fn draw(sketch: &Sketch, file: &Path) -> Result<()> {
     write(&model::plan_and_perspective(sketch), file)
 }
 
 /// Draw a sheet of a grid to a file.
-pub fn draw_sheet(design: &Design, wish: &sheet::Wish, file: &Path) -> Result<(), Failure> {
+///
+/// # Errors
+/// As [`check`].
+pub fn draw_sheet(design: &Design, wish: &sheet::Wish, file: &Path) -> Result<()> {
     write(&sheet::sheet(design, wish), file)
 }
 
-fn write(drawing: &Drawing, file: &Path) -> Result<(), Failure> {
+fn write(drawing: &Drawing, file: &Path) -> Result<()> {
     let bytes = match kind(file)? {
         Kind::Svg => svg::encode(drawing).into_bytes(),
-        Kind::Png => png::encode(drawing)?,
+        Kind::Png => png::encode(drawing)
+            .map_err(|message| Error::Option(format!("{}: {message}", file.display())))?,
         Kind::Pdf => pdf::encode(drawing),
     };
-    io::replace(file, &bytes).map_err(Failure::other)
+    io::replace(file, &bytes)
 }
 
 #[derive(Debug)]
@@ -70,7 +82,7 @@ enum Kind {
     Pdf,
 }
 
-fn kind(file: &Path) -> Result<Kind, Failure> {
+fn kind(file: &Path) -> Result<Kind> {
     let extension = file.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     match extension.as_str() {
         "svg" => Ok(Kind::Svg),
@@ -78,7 +90,7 @@ fn kind(file: &Path) -> Result<Kind, Failure> {
         "pdf" => Ok(Kind::Pdf),
         _ => {
             let message = "a picture must end in .svg, .png or .pdf";
-            Err(Failure::usage(format!("{}: {message}", file.display())))
+            Err(Error::Option(format!("{}: {message}", file.display())))
         }
     }
 }

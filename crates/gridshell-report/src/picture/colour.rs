@@ -1,12 +1,12 @@
 //! What the colours of a grid mean: the one place that sheets, reports and viewers have it from.
 
 use super::drawing::Rgb;
-use clap::ValueEnum;
 use gridshell::degree::REGULAR;
 use gridshell::design::Design;
 
 /// What is shown by colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Coloring {
     /// Members by length: blue is shorter than wanted, red longer.
     Length,

@@ -8,13 +8,13 @@ use super::glyphs;
 use super::hidden::Cover;
 use super::scene::{INK, PAPER};
 use super::view::Camera;
-use clap::ValueEnum;
 use gridshell::degree::REGULAR;
 use gridshell::design::Design;
 use gridshell::math::trig;
 
 /// What is written on the elements.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Labels {
     /// N0, N1, ... as in schedules.
     Nodes,

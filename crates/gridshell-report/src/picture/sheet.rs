@@ -8,14 +8,14 @@ use super::scene::{self, INK, Style};
 use super::view::{Camera, View};
 use super::{glyphs, legend, small};
 use crate::facts::facts;
-use clap::ValueEnum;
 use gridshell::design::Design;
 
 /// What a sheet shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Sheet {
     /// From above, x to the right.
-    #[value(alias = "top")]
+    #[cfg_attr(feature = "clap", value(alias = "top"))]
     Plan,
     /// Along y, x to the right.
     Front,
@@ -28,12 +28,18 @@ pub enum Sheet {
 }
 
 /// Paper in landscape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Paper {
+    /// 1189 x 841 mm.
     A0,
+    /// 841 x 594 mm.
     A1,
+    /// 594 x 420 mm.
     A2,
+    /// 420 x 297 mm.
     A3,
+    /// 297 x 210 mm.
     A4,
     /// A small picture without border, title and figures, for pages and messages.
     None,
@@ -41,9 +47,13 @@ pub enum Paper {
 
 /// What is asked of a sheet.
 pub struct Wish<'a> {
+    /// The views on it.
     pub sheet: Sheet,
+    /// Its size.
     pub paper: Paper,
+    /// What colours show.
     pub coloring: Coloring,
+    /// Whose numbers are written beside them.
     pub labels: &'a [Labels],
 }
 
@@ -81,7 +91,7 @@ impl Paper {
 }
 
 impl Sheet {
-    pub fn views(self) -> &'static [View] {
+    pub(crate) fn views(self) -> &'static [View] {
         match self {
             Sheet::Plan => &[View::Plan],
             Sheet::Front => &[View::Front],

@@ -3,7 +3,6 @@
 use super::drawing::{Drawing, Mark, Rgb, Unit};
 use super::glyphs;
 use super::palette::{self, Indexed};
-use crate::failure::Failure;
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform,
 };
@@ -14,13 +13,13 @@ const OF_SHEET: u8 = 255;
 /// Pixels of a millimetre: 150 to the inch.
 const PIXELS: f64 = 150.0 / 25.4;
 
-pub fn encode(drawing: &Drawing) -> Result<Vec<u8>, Failure> {
+pub fn encode(drawing: &Drawing) -> Result<Vec<u8>, String> {
     let scale = match drawing.unit {
         Unit::Pixel => 1.0,
         Unit::Millimetre => PIXELS,
     };
     let [w, h] = drawing.size.map(|x| (x * scale).ceil() as u32);
-    let pixels = Pixmap::new(w, h).ok_or_else(|| Failure::other("a picture without extent"))?;
+    let pixels = Pixmap::new(w, h).ok_or("a picture without extent")?;
     let mut canvas = Canvas { pixels, scale: Transform::from_scale(scale as f32, scale as f32) };
     canvas.pixels.fill(Color::WHITE);
     for mark in &drawing.marks {
@@ -34,7 +33,7 @@ pub fn encode(drawing: &Drawing) -> Result<Vec<u8>, Failure> {
             }
         }
     }
-    packed(&canvas.pixels, drawing).map_err(Failure::other)
+    packed(&canvas.pixels, drawing).map_err(|e| e.to_string())
 }
 
 /// The file: colours by numbers, and how large it is on paper.
