@@ -52,7 +52,8 @@ fn main() -> ExitCode {
         #[cfg(feature = "studio")]
         // Its runs have jobs of their own; an interrupt ends it.
         Command::Studio(_) => Work::new(limits),
-        _ => Work::interruptible(limits),
+        Command::Generate(_) | Command::Edit(_) => Work::interruptible(limits),
+        _ => Work::interruptible(limits).ends_at_once(),
     };
     let result = threads::start(asked).and_then(|()| run(&args, &work));
     work.told();

@@ -70,6 +70,11 @@ impl Work {
         work
     }
 
+    /// The same for a command that has no best so far: there is nothing to wait for when it is to stop.
+    pub fn ends_at_once(self) -> Work {
+        Work { job: self.job.with_patience(Duration::ZERO), ..self }
+    }
+
     /// Take the bar away: results are told now.
     pub fn told(&self) {
         self.bar.finish_and_clear();

@@ -6,6 +6,7 @@ use crate::message::{CandidateRow, Histogram, Measure, RunInfo, RunSummary, Stag
 use gridshell::grid::Grid;
 use gridshell::stages::measure::Quality;
 use gridshell::surface::Surface;
+use gridshell_report::measures::{self, Known};
 
 /// Bins of a histogram.
 const BINS: usize = 24;
@@ -25,139 +26,22 @@ pub fn told(summary: RunSummary, laid: &Laid, now: &Now) -> RunInfo {
     }
 }
 
-fn measures(q: &Quality, edge_length: f64) -> Vec<Measure> {
-    [fluency(q), lengths(q), panels(q), fit(q, edge_length), border(q)].concat()
-}
-
-/// A measure: its key, name, unit and help.
-fn measure(group: &str, [key, label, unit, help]: [&str; 4], value: String) -> Measure {
-    Measure {
-        key: key.into(),
-        label: label.into(),
-        value,
-        floor: None,
-        unit: unit.into(),
-        help: help.into(),
-        group: group.into(),
-        bad: false,
-    }
-}
-
-fn fluency(q: &Quality) -> Vec<Measure> {
-    let row = |told, value| measure("Fluency", told, value);
-    let fluency = q.fluency.map_or_else(|| "\u{221e}".to_owned(), |f| format!("{f:.2}"));
-    let odd = format!("{} + {}", q.irregular.interior, q.irregular.boundary);
-    let help = "How smoothly lines run; higher is better. Eq. 31.";
-    let mu = row(
-        ["mu", "Irregularity \u{3bc}", "", "Average nodal degree residual, Eq. 27."],
-        format!("{:.4}", q.mu),
-    );
-    let delta = row(
-        ["delta_deg", "Disfluency \u{3b4}", "\u{b0}", "Mean angle fluency index, Eq. 30."],
-        format!("{:.2}", q.delta_deg),
-    );
-    vec![
-        row(["fluency", "Fluency Q", "", help], fluency),
-        Measure { floor: Some(format!("{:.4}", q.mu_floor)), ..mu },
-        Measure { floor: Some(format!("{:.2}", q.delta_floor_deg)), ..delta },
-        row(
-            ["rho", "Regular share \u{3c1}", "", "Weighted share of regular nodes inside, Eq. 32."],
-            format!("{:.3}", q.rho),
-        ),
-        row(["irregular", "Irregular nodes", "", "Inside, and on the boundary."], odd),
-    ]
-}
-
-fn lengths(q: &Quality) -> Vec<Measure> {
-    let row = |told, value| measure("Lengths", told, value);
-    let l = &q.edge_length;
-    let range = format!("{:.3} \u{2013} {:.3}", l.min, l.max);
-    vec![
-        row(["mean", "Mean length", "m", "Mean length of the members."], format!("{:.3}", l.mean)),
-        row(["range", "Shortest, longest", "m", "Least and largest member length."], range),
-        row(
-            ["cv", "Spread r", "%", "Coefficient of variation of the lengths, Eq. 24."],
-            format!("{:.2}", 100.0 * l.cv),
-        ),
-    ]
-}
-
-fn panels(q: &Quality) -> Vec<Measure> {
-    let row = |told, value| measure("Panels", told, value);
-    let area = format!("{:.2}", 100.0 * q.area_ratio);
-    vec![
-        row(
-            ["shape", "Mean shape q", "", "1 is equilateral, Eq. 25."],
-            format!("{:.4}", q.shape.mean),
-        ),
-        row(
-            ["worst", "Worst shape", "", "Shape of the worst panel."],
-            format!("{:.3}", q.shape.min),
-        ),
-        row(
-            ["min_angle_deg", "Least angle", "\u{b0}", "Least angle of a panel."],
-            format!("{:.1}", q.min_angle_deg),
-        ),
-        row(["area_ratio", "Area", "%", "Area of the panels over that of the surface."], area),
-    ]
-}
-
-fn fit(q: &Quality, edge_length: f64) -> Vec<Measure> {
-    let row = |told, value| measure("Fit", told, value);
-    let [surface, boundary] =
-        [q.surface_deviation, q.boundary_deviation].map(|off| millimetres(off * edge_length));
-    let help = "Panels that lie folded back; there should be none.";
-    let folded = row(["folded_panels", "Folded panels", "", help], q.folded_panels.to_string());
-    let help = "Members that leap from sheet to sheet; there should be none.";
-    let bridging =
-        row(["bridging_members", "Bridging members", "", help], q.bridging_members.to_string());
-    let mut all = vec![
-        row(
-            [
-                "surface_deviation",
-                "Nodes off surface",
-                "mm",
-                "Largest distance of a node to the exact surface.",
-            ],
-            surface,
-        ),
-        row(
-            [
-                "boundary_deviation",
-                "Nodes off boundary",
-                "mm",
-                "Largest distance of a boundary node to the boundary.",
-            ],
-            boundary,
-        ),
-        Measure { bad: q.folded_panels > 0, ..folded },
-        Measure { bad: q.bridging_members > 0, ..bridging },
-    ];
-    if let Some(off) = q.direction_deviation_deg {
-        let help = "Mean angle between the wanted direction and the nearest member.";
-        all.push(row(["direction", "Off the direction", "\u{b0}", help], format!("{off:.1}")));
-    }
-    all
-}
-
-fn border(q: &Quality) -> Vec<Measure> {
-    let row = |told, value| measure("Border", told, value);
-    let b = &q.border;
-    vec![
-        row(
-            ["border_shape", "Mean shape q", "", "Shape of the panels at the border."],
-            format!("{:.4}", b.shape_mean),
-        ),
-        row(
-            ["border_cv", "Spread r", "%", "Length spread of the members at the border."],
-            format!("{:.2}", 100.0 * b.edge_length_cv),
-        ),
-    ]
-}
-
-fn millimetres(metres: f64) -> String {
-    // Rounding is not worth a figure.
-    if metres < 1e-6 { "< 0.001".into() } else { format!("{:.3}", 1e3 * metres) }
+fn measures(quality: &Quality, edge_length: f64) -> Vec<Measure> {
+    // Schedules would take too long at every edit.
+    let known = Known { quality, figures: None, edge_length };
+    let row = |m: &measures::Measure| {
+        Some(Measure {
+            key: m.key.into(),
+            label: m.title(),
+            value: m.text(&known)?,
+            floor: m.floor(&known),
+            unit: m.unit.into(),
+            help: m.help(),
+            group: m.group.title().into(),
+            bad: m.is_fault && m.value(&known) != Some(0.0),
+        })
+    };
+    measures::ALL.iter().filter_map(row).collect()
 }
 
 fn histograms(grid: &Grid, surface: &Surface) -> Vec<Histogram> {

@@ -1,10 +1,10 @@
 //! The paper's measures of this grid, each with what it means and how good and bad look.
 
+use crate::measures::{Known, Measure};
 use crate::picture::drawing::{Drawing, Rgb, Unit};
 use crate::picture::svg;
 use gridshell::design::Design;
 use gridshell::math::trig;
-use gridshell::stages::measure::Lengths;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 const SIZE: [f64; 2] = [150.0, 92.0];
@@ -15,128 +15,81 @@ const PAPER: Rgb = [1.0, 1.0, 1.0];
 /// Height of an equilateral triangle over its side.
 const HIGH: f64 = 0.866_025_403_784_438_6;
 
-/// A measure as the page shows it.
-struct Measure {
-    name: &'static str,
-    value: String,
-    meaning: String,
-    good: Option<Drawing>,
-    bad: Option<Drawing>,
+/// How good and bad look by a measure.
+type Pair = [Drawing; 2];
+
+/// The measures that are drawn, each with a good and a bad grid.
+fn drawn_measures() -> [(&'static str, Pair); 6] {
+    let good = || lattice(|p| p);
+    [
+        (
+            "fluency",
+            [
+                good(),
+                defect(5, |p| {
+                    [p[0] + 0.12 * trig::sin(5.0 * p[1]), p[1] + 0.1 * trig::sin(4.0 * p[0])]
+                }),
+            ],
+        ),
+        (
+            "cv",
+            [
+                good(),
+                lattice(|p| {
+                    [p[0] + 0.28 * trig::sin(1.9 * p[0]), p[1] + 0.22 * trig::sin(2.3 * p[1])]
+                }),
+            ],
+        ),
+        ("shape", [good(), lattice(|p| [0.8 * p[0] + 0.55 * p[1], 0.72 * p[1]])]),
+        ("mu", [good(), defect(5, |p| p)]),
+        (
+            "delta_deg",
+            [
+                good(),
+                lattice(|p| {
+                    let zigzag = if (p[1] / HIGH).round() as i64 % 2 == 0 { 0.17 } else { -0.17 };
+                    [p[0] + zigzag, p[1] + 0.12 * trig::sin(3.1 * p[0])]
+                }),
+            ],
+        ),
+        ("rho", [good(), defect(7, |p| p)]),
+    ]
 }
 
-/// All measures.
+/// The measures that make a grid good, and how true it is to its surface.
 pub fn section(design: &Design) -> String {
-    let cards: String = all(design).iter().map(card).collect();
+    let known = Known::of(design);
+    let mut cards = String::new();
+    for (key, pair) in drawn_measures() {
+        let measure = Measure::named(key);
+        let mut meaning = measure.help();
+        if let ("delta_deg", Some(share)) = (key, design.schedule.figures.curvature_share) {
+            meaning += &format!(
+                " {:.0} % of the bending at regular nodes comes from the surface.",
+                100.0 * share
+            );
+        }
+        cards += &card(measure, &known, &meaning, Some(&pair));
+    }
+    for key in ["surface_deviation", "boundary_deviation", "area_ratio"] {
+        let measure = Measure::named(key);
+        cards += &card(measure, &known, &measure.help(), None);
+    }
     format!("<section><h2>What makes it good</h2><div class=\"measures\">{cards}</div></section>")
 }
 
-fn card(measure: &Measure) -> String {
-    let Measure { name, value, meaning, good, bad } = measure;
-    let figure = |drawing: &Option<Drawing>, caption: &str| {
-        drawing.as_ref().map_or(String::new(), |d| {
-            format!("<figure>{}<figcaption>{caption}</figcaption></figure>", svg::encode(d))
-        })
+fn card(measure: &Measure, known: &Known, meaning: &str, pair: Option<&Pair>) -> String {
+    let figure = |drawing: &Drawing, caption: &str| {
+        format!("<figure>{}<figcaption>{caption}</figcaption></figure>", svg::encode(drawing))
     };
-    let pair = match good {
-        None => String::new(),
-        Some(_) => {
-            format!("<div class=\"pair\">{}{}</div>", figure(good, "good"), figure(bad, "bad"))
-        }
-    };
-    format!(
-        "<div class=\"measure\"><h3><span>{name}</span><span>{value}</span></h3><p>{meaning}</p>{pair}</div>"
-    )
-}
-
-fn all(design: &Design) -> Vec<Measure> {
-    let q = &design.quality;
-    let measure = |name, value, meaning: &str, good, bad| Measure {
-        name,
-        value,
-        meaning: meaning.to_owned(),
-        good: Some(good),
-        bad: Some(bad),
-    };
-    let lengths = match q.lengths {
-        Lengths::AsBuilt => {
-            "standard deviation of the member lengths over their mean: 0 if all are alike."
-        }
-        Lengths::OverLocal => {
-            "standard deviation of the member lengths over what is wanted where they are: 0 if all are as wanted."
-        }
-    };
-    let fluency = q.fluency.map_or("&infin;".to_owned(), |x| format!("{x:.2}"));
-    let off = 1e3 * design.edge_length;
-    let share = design.schedule.figures.curvature_share;
-    let share = share.map_or(String::new(), |s| {
-        format!(" {:.0} % of the bending at regular nodes comes from the surface.", 100.0 * s)
+    let pair = pair.map_or(String::new(), |[good, bad]| {
+        format!("<div class=\"pair\">{}{}</div>", figure(good, "good"), figure(bad, "bad"))
     });
-    vec![
-        measure(
-            "Fluency Q",
-            fluency,
-            "How calmly the lines of members flow over the surface, taken all together: regular nodes, lines that go \
-             straight on. Larger is better.",
-            lattice(|p| p),
-            defect(5, |p| {
-                [p[0] + 0.12 * trig::sin(5.0 * p[1]), p[1] + 0.1 * trig::sin(4.0 * p[0])]
-            }),
-        ),
-        measure(
-            "Length spread r",
-            format!("{:.4}", q.edge_length.cv),
-            &format!("How different members are: {lengths} Smaller is better."),
-            lattice(|p| p),
-            lattice(|p| [p[0] + 0.28 * trig::sin(1.9 * p[0]), p[1] + 0.22 * trig::sin(2.3 * p[1])]),
-        ),
-        measure(
-            "Panel shape q",
-            format!("{:.4}, least {:.3}", q.shape.mean, q.shape.min),
-            "How near panels are to equilateral triangles: 1 is equilateral, 0 a sliver. Larger is better.",
-            lattice(|p| p),
-            lattice(|p| [0.8 * p[0] + 0.55 * p[1], 0.72 * p[1]]),
-        ),
-        measure(
-            "Degree residual mu",
-            format!("{:.3} (floor {:.3})", q.mu, q.mu_floor),
-            "How far nodes are from having six members, on average; at the border, from as many as its angle asks for. \
-             The floor is what the shape of the surface and its border demand. Smaller is better.",
-            lattice(|p| p),
-            defect(5, |p| p),
-        ),
-        measure(
-            "Angle disfluency delta",
-            format!("{:.2} deg (floor {:.2})", q.delta_deg, q.delta_floor_deg),
-            &format!(
-                "How much lines bend from member to member at regular nodes, on average. The floor is what the \
-                 curvature of the surface demands.{share} Smaller is better."
-            ),
-            lattice(|p| p),
-            lattice(|p| {
-                let zigzag = if (p[1] / HIGH).round() as i64 % 2 == 0 { 0.17 } else { -0.17 };
-                [p[0] + zigzag, p[1] + 0.12 * trig::sin(3.1 * p[0])]
-            }),
-        ),
-        measure(
-            "Regular share rho",
-            format!("{:.3}", q.rho),
-            "Weighted share of the nodes inside that are regular: 1 where all lines go through. Larger is better.",
-            lattice(|p| p),
-            defect(7, |p| p),
-        ),
-        Measure {
-            name: "True to the surface",
-            value: format!("{:.3} mm", off * q.surface_deviation),
-            meaning: format!(
-                "Farthest that a node is from the surface; at the border {:.3} mm from its edge. The panels have \
-                 {:.2} % of its area: they cut the corners of its curves.",
-                off * q.boundary_deviation,
-                100.0 * q.area_ratio
-            ),
-            good: None,
-            bad: None,
-        },
-    ]
+    let value = measure.full_text(known).unwrap_or_default();
+    format!(
+        "<div class=\"measure\"><h3><span>{}</span><span>{value}</span></h3><p>{meaning}</p>{pair}</div>",
+        measure.title()
+    )
 }
 
 /// A piece of a lattice, its nodes moved; unit members.

@@ -1,6 +1,6 @@
 //! Tables of the page.
 
-use crate::facts::facts;
+use crate::measures::{self, Known};
 use crate::picture::svg::escaped;
 use gridshell::design::Design;
 use gridshell::recipe::Start;
@@ -14,7 +14,9 @@ pub fn figures(design: &Design) -> String {
     let row = |name: &str, value: &str| {
         format!("<div class=\"fact\"><span>{name}</span><b>{}</b></div>", escaped(value))
     };
-    let rows: String = facts(design).iter().map(|f| row(f.name, &f.value)).collect();
+    let known = Known::of(design);
+    let rows: String =
+        measures::ALL.iter().filter_map(|m| Some(row(m.name, &m.full_text(&known)?))).collect();
     let supports = design.document.supports.len();
     let supports = row("supported nodes", &supports.to_string());
     format!("<section><h2>All figures</h2><div class=\"two\">{rows}{supports}</div></section>")

@@ -7,7 +7,7 @@ use super::label::{self, Labels};
 use super::scene::{self, INK, Style};
 use super::view::{Camera, View};
 use super::{glyphs, legend, small};
-use crate::facts::facts;
+use crate::measures::{self, Known};
 use gridshell::design::Design;
 
 /// What a sheet shows.
@@ -260,9 +260,12 @@ fn column(
     y = legend::marks(drawing, design, wish.coloring, [left, y], size, LINE * f) + LINE * f;
     heading(drawing, "Figures", [left, y], width, f);
     y += 1.4 * LINE * f;
-    for fact in facts(design) {
-        legend::row(drawing, (fact.name, &fact.value), [left, y], width, size);
-        y += LINE * f;
+    let known = Known::of(design);
+    for measure in measures::ALL {
+        if let Some(value) = measure.full_text(&known) {
+            legend::row(drawing, (measure.name, &value), [left, y], width, size);
+            y += LINE * f;
+        }
     }
     title(design, wish, scale, [left, width], f, drawing);
 }

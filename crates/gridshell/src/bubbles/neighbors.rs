@@ -4,10 +4,10 @@ use crate::surface::{Carrier, SurfacePoint};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Walks in vain, for each point, after which pairs found on two sheets are not walked again. With fewer, a pair beside
-/// a crease that was seen too early is never seen again; with more, a surface that waves within a member, where each
-/// point has seven such pairs, walks them for nothing at every list. Other surfaces come nowhere near it.
-const WALKS_IN_VAIN: usize = 32;
+/// Where points have more neighbours on other sheets than this, on average, those found there are not walked again. A
+/// surface that waves within a member has seven, and walks them for nothing at every list; roofs have a few in all, and
+/// with a lower limit a pair beside a crease that was seen too early would never be seen again.
+const MOST_APART: usize = 1;
 
 /// Neighbours of points that move, brought up to date from time to time.
 #[derive(Default)]
@@ -16,8 +16,6 @@ pub struct Neighbors {
     pub lists: Vec<Vec<u32>>,
     /// Points as near as neighbours, but on another sheet; of each pair, those of the higher index.
     apart: Vec<Vec<u32>>,
-    /// Walks that did not arrive.
-    in_vain: usize,
 }
 
 impl Neighbors {
@@ -29,7 +27,8 @@ impl Neighbors {
         let has = |lists: &[Vec<u32>], i: usize, j| {
             lists.get(i).is_some_and(|list| list.binary_search(&j).is_ok())
         };
-        let again = self.in_vain < WALKS_IN_VAIN * points.len();
+        let known_apart: usize = self.apart.iter().map(Vec::len).sum();
+        let again = known_apart <= MOST_APART * points.len();
         let (mut lists, apart): (Vec<Vec<u32>>, Vec<Vec<u32>>) = (0..points.len())
             .into_par_iter()
             .map(|i| {
@@ -55,8 +54,7 @@ impl Neighbors {
         for (all, above) in both.iter_mut().zip(&mut lists) {
             all.append(above);
         }
-        let walked = if again { apart.iter().map(Vec::len).sum() } else { 0 };
-        *self = Neighbors { lists: both, apart, in_vain: self.in_vain + walked };
+        *self = Neighbors { lists: both, apart };
     }
 }
 
@@ -131,7 +129,7 @@ mod tests {
             .map(|(triangle, bary)| SurfacePoint { triangle, bary });
         let xyz = points.map(|p| carrier.xyz(&p));
         let mut neighbors = Neighbors::default();
-        for _ in 0..4 * WALKS_IN_VAIN {
+        for _ in 0..8 {
             neighbors.list(&carrier, &points, &xyz, 1.0);
             assert_eq!(neighbors.lists, [vec![1], vec![0], vec![]]);
         }

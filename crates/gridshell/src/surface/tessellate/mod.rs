@@ -39,7 +39,7 @@ const MOST_TRIANGLES: f64 = 8e6;
 /// Nodes of one face at most: its share of some for the bends of the whole model, and some for each square of the
 /// longest edge in its area. A flat face has 2.3 to a square, a sphere of 17 squares twice that. With more for bends,
 /// waves shorter than a member cost seconds that no grid gains from; with fewer, they are drawn too coarsely.
-const NODES_FOR_BENDS: f64 = 10_000.0;
+const NODES_FOR_BENDS: f64 = 20_000.0;
 const NODES_TO_A_SQUARE: f64 = 8.0;
 /// As many are left to each face of a model of many.
 const LEAST_FOR_BENDS: f64 = 1_000.0;
