@@ -16,6 +16,6 @@ libfuzzer_sys::fuzz_target!(|text: &str| {
     });
     let mut editor = design.edit();
     let _ = editor.replay(&log, &Job::default());
-    assert!(editor.grid().mesh.check().is_ok(), "a grid that is no manifold");
+    assert!(editor.grid().mesh.check().is_ok(), "a grid that is not a manifold");
     assert!(editor.grid().xyz.iter().all(|p| p.is_finite()), "a place that is none");
 });

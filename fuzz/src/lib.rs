@@ -31,7 +31,7 @@ pub fn surface(extension: &str, bytes: &[u8]) {
         let max_edge = size * FINENESS;
         let sampling = Sampling { max_edge, chord_error: size * CHORD_ERROR, corner_angle: CORNER };
         if let Ok(surface) = model.surface(&sampling, &Job::default()) {
-            assert!(surface.area.is_finite(), "an area that is no number");
+            assert!(surface.area.is_finite(), "an area that is not a number");
         }
     });
 }

@@ -139,10 +139,11 @@ pub struct Generate {
     #[arg(long, value_name = "x,y,z|FILE|boundary", allow_hyphen_values = true)]
     pub direction: Option<String>,
     /// Symmetry of the surface that the grid is to have too: `auto` for the largest that the surface has, mirror planes
-    /// square to `x`, `y` or both (`xy`), or a number of turns about a vertical axis.
+    /// perpendicular to `x`, `y` or both (`xy`), or a number of turns about a vertical axis.
     #[arg(long, value_name = "auto|x|y|xy|N")]
     pub symmetry: Option<String>,
-    /// What the border is worth against the lines inside: 0 (one lattice, cut off) to 1 (rows along every border).
+    /// Priority of well-shaped border panels over straight interior lines: 0 (lattice simply trimmed) to 1 (rows follow
+    /// every border).
     #[arg(long, value_name = "0..1", allow_negative_numbers = true)]
     pub border: Option<f64>,
     /// How much work to put in: `draft`, `standard` or `best`.
@@ -198,7 +199,7 @@ pub struct Generate {
 /// What hand-over files state beside the grid.
 #[derive(ClapArgs)]
 pub struct Handover {
-    /// Supported nodes: `boundary` (what is taken without it), `corners`, `none`, or a text with one point `x y z` a line.
+    /// Supported nodes: `boundary` (default), `corners`, `none`, or a text with one point `x y z` a line.
     #[arg(long, value_name = "boundary|corners|FILE|none")]
     pub supports: Option<String>,
     /// Section of all members, millimetres: `RHS 100x60x5` (height x width x wall), `CHS 88.9x5`, `REC 120x60`.
@@ -279,7 +280,7 @@ pub struct Draw {
     /// What the colours show.
     #[arg(long, value_enum, default_value = "length")]
     pub color: Coloring,
-    /// Whose numbers are written beside them, as in the schedules; parted by commas.
+    /// Whose numbers are written beside them, as in the schedules; separated by commas.
     #[arg(long, value_enum, value_delimiter = ',')]
     pub labels: Vec<Labels>,
     /// The paper, in landscape; `none` makes a small picture.
@@ -334,7 +335,7 @@ pub struct Edit {
     /// Write a grid that the edits made invalid all the same, marked as such, instead of ending with code 4.
     #[arg(long)]
     pub keep_invalid: bool,
-    /// So many more edits that would better the grid, the best first.
+    /// Suggest up to N further edits that would improve the grid, best first.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub suggest: usize,
     /// Print one JSON document on stdout, and nothing else there.
@@ -360,7 +361,7 @@ pub struct Inspect {
 #[derive(ClapArgs)]
 pub struct Studio {
     /// A file (STEP, 3DM, IGES, OBJ, PLY, STL, OFF, glTF, COMPAS JSON) or the name of a built-in surface to begin with;
-    /// a `.gridshell` file is gone on with.
+    /// a `.gridshell` file is reopened for further work.
     #[arg(default_value = "great-court")]
     pub surface: String,
     /// Port of 127.0.0.1; without it a free one.
@@ -384,7 +385,7 @@ fn memory(text: &str) -> Result<u64, String> {
     job::memory::parse(text).map_err(|e| e.to_string())
 }
 
-/// A positive number that is no infinity; a billion of anything is enough.
+/// A positive number that is not an infinity; a billion of anything is enough.
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x > 0.0 && x <= 1e9 => Ok(x),

@@ -88,7 +88,10 @@ fn again(surface: &str, job: &Job) -> Result<Option<Document>, Failure> {
     }
     let document = io::read_document(path, job).map_err(Failure::of_input)?;
     if document.surface.is_none() || document.recipe.is_none() {
-        return Err(Failure::input(path, "it tells of no run that could be repeated"));
+        return Err(Failure::input(
+            path,
+            "the file does not record a run, so it cannot be repeated",
+        ));
     }
     Ok(Some(document))
 }

@@ -46,7 +46,7 @@ impl Work {
             job = job.with_memory_limit(limit);
         }
         if let Some(seconds) = limits.time_limit {
-            // Longer than the clock can tell is no limit.
+            // Longer than the clock can tell is not a limit.
             let limit = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
             job = job.with_time_limit(limit);
         }

@@ -84,7 +84,7 @@ fn tolerances(recipe: &mut Recipe, alike: &Alike) {
     measure.angle_tolerance_deg = alike.angle_tolerance.unwrap_or(measure.angle_tolerance_deg);
 }
 
-/// Three numbers parted by commas, if it is that.
+/// Three numbers separated by commas, if it is that.
 fn vector(text: &str) -> Option<[f64; 3]> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|w| w.trim().parse().ok()).collect();
     numbers?.try_into().ok()

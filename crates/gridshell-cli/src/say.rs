@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use serde::Serialize;
 use std::io::{ErrorKind, Write, stdout};
 
-/// Print a result. A reader that has gone away is no failure.
+/// Print a result. A reader that has gone away is not a failure.
 pub fn result(text: &str) -> Result<(), Failure> {
     let mut out = stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -31,6 +31,6 @@ pub fn reading(of: &str, losses: &[String], notes: &[String]) {
 
 /// Tell the user something beside the result.
 pub fn note(text: &str) {
-    // Nobody to tell is no failure.
+    // Nobody to tell is not a failure.
     let _ = writeln!(std::io::stderr(), "{text}");
 }

@@ -130,7 +130,7 @@ fn recipes_with_wrong_types_and_wrong_values_leave_with_2() {
         "edge_length = nan\n",
         "border = 2\n",
         "anchors = [[0, nan, 0]]\n",
-        "this is no toml",
+        "this is not toml",
     ]
     .iter()
     .enumerate()

@@ -25,7 +25,15 @@ pub struct Measure {
     pub is_fault: bool,
     value: fn(&Known) -> Option<f64>,
     floor: Option<fn(&Known) -> f64>,
+    within: Option<fn(&Figures) -> String>,
 }
+
+/// What lengths of a group differ by at most.
+const BY_LENGTH: Option<fn(&Figures) -> String> =
+    Some(|f| format!("within {:.1} mm", 1e3 * f.length_tolerance));
+/// What angles at alike nodes differ by at most.
+const BY_ANGLE: Option<fn(&Figures) -> String> =
+    Some(|f| format!("within {} deg", f.angle_tolerance_deg));
 
 /// Headings that measures stand under.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,7 +111,7 @@ impl Measure {
         self.floor.map(|floor| self.written(floor(known)))
     }
 
-    /// Its value with unit and floor.
+    /// Its value with unit, floor, and within what it counts as alike.
     pub fn full_text(&self, known: &Known) -> Option<String> {
         let mut text = self.text(known)?;
         if !self.unit.is_empty() {
@@ -112,6 +120,10 @@ impl Measure {
         }
         if let Some(floor) = self.floor(known) {
             text += &format!(" (floor {floor})");
+        }
+        if let (Some(within), Some(figures)) = (self.within, known.figures) {
+            text += " ";
+            text += &within(figures);
         }
         Some(text)
     }
@@ -177,6 +189,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.nodes as f64),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "members",
@@ -189,6 +202,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.members as f64),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "panels",
@@ -201,6 +215,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.panels as f64),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "total_length",
@@ -213,6 +228,7 @@ pub const ALL: &[Measure] = &[
         value: |k| k.figures.map(|f| f.length.total),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "total_area",
@@ -225,6 +241,7 @@ pub const ALL: &[Measure] = &[
         value: |k| k.figures.map(|f| f.panel.total_area),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "fluency",
@@ -237,6 +254,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.fluency.unwrap_or(f64::INFINITY)),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "mu",
@@ -249,6 +267,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.mu),
         floor: Some(|k| k.quality.mu_floor),
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "delta_deg",
@@ -261,6 +280,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.delta_deg),
         floor: Some(|k| k.quality.delta_floor_deg),
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "rho",
@@ -273,6 +293,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.rho),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "irregular_interior",
@@ -285,6 +306,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.irregular.interior as f64),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "irregular_boundary",
@@ -297,6 +319,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.irregular.boundary as f64),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "edge_length",
@@ -309,6 +332,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.edge_length),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "mean_length",
@@ -321,6 +345,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.edge_length.mean),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "min_length",
@@ -333,6 +358,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.edge_length.min),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "max_length",
@@ -345,6 +371,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.edge_length.max),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "cv",
@@ -357,6 +384,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.edge_length.cv),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "length_groups",
@@ -369,6 +397,7 @@ pub const ALL: &[Measure] = &[
         value: |k| k.figures.map(|f| f.length.groups as f64),
         floor: None,
         is_fault: false,
+        within: BY_LENGTH,
     },
     Measure {
         key: "shape",
@@ -381,6 +410,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.shape.mean),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "min_shape",
@@ -393,6 +423,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.shape.min),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "min_angle_deg",
@@ -405,6 +436,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.min_angle_deg),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "distinct_panels",
@@ -417,6 +449,7 @@ pub const ALL: &[Measure] = &[
         value: |k| k.figures.map(|f| f.panel.distinct as f64),
         floor: None,
         is_fault: false,
+        within: BY_LENGTH,
     },
     Measure {
         key: "distinct_nodes",
@@ -429,6 +462,7 @@ pub const ALL: &[Measure] = &[
         value: |k| k.figures.map(|f| f.distinct_nodes as f64),
         floor: None,
         is_fault: false,
+        within: BY_ANGLE,
     },
     Measure {
         key: "fold_deg",
@@ -441,6 +475,7 @@ pub const ALL: &[Measure] = &[
         value: |k| k.figures.map(|f| f.fold_deg.max),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "twist_deg",
@@ -453,6 +488,7 @@ pub const ALL: &[Measure] = &[
         value: |k| k.figures.map(|f| f.twist_deg.max),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "border_shape",
@@ -465,6 +501,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.border.shape_mean),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "border_cv",
@@ -477,6 +514,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.border.edge_length_cv),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "area_ratio",
@@ -489,6 +527,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.area_ratio),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "surface_deviation",
@@ -501,6 +540,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(1e3 * k.edge_length * k.quality.surface_deviation),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "boundary_deviation",
@@ -513,6 +553,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(1e3 * k.edge_length * k.quality.boundary_deviation),
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "direction_deviation_deg",
@@ -525,6 +566,7 @@ pub const ALL: &[Measure] = &[
         value: |k| k.quality.direction_deviation_deg,
         floor: None,
         is_fault: false,
+        within: None,
     },
     Measure {
         key: "folded_panels",
@@ -537,6 +579,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.folded_panels as f64),
         floor: None,
         is_fault: true,
+        within: None,
     },
     Measure {
         key: "bridging_members",
@@ -549,6 +592,7 @@ pub const ALL: &[Measure] = &[
         value: |k| Some(k.quality.bridging_members as f64),
         floor: None,
         is_fault: true,
+        within: None,
     },
 ];
 

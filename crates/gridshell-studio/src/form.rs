@@ -94,9 +94,9 @@ fn shape_fields(recipe: &Recipe) -> Vec<Field> {
     let symmetry = choice(&[
         ("none", "None"),
         ("auto", "All that the surface has"),
-        ("x", "Mirror square to x"),
-        ("y", "Mirror square to y"),
-        ("xy", "Mirrors square to x and y"),
+        ("x", "Mirror perpendicular to x"),
+        ("y", "Mirror perpendicular to y"),
+        ("xy", "Mirrors perpendicular to x and y"),
         ("2", "2 turns"),
         ("3", "3 turns"),
         ("4", "4 turns"),
@@ -127,7 +127,7 @@ fn shape_fields(recipe: &Recipe) -> Vec<Field> {
             json!("none"),
         ),
         field(
-            ["size", "Lengths", "", "Whether members are as long everywhere."],
+            ["size", "Lengths", "", "Whether all members aim for the same length."],
             "Shape",
             size,
             json!("uniform"),

@@ -70,7 +70,7 @@ impl Drop for End {
             Some(Err(message)) => self.desk.ended(None, Some(message)),
             None => self.desk.ended(
                 None,
-                Some("the run broke off: this is a fault of gridshell, please report it".into()),
+                Some("the run crashed. This is a bug in gridshell; please report it".into()),
             ),
         }
     }

@@ -221,7 +221,7 @@ pub enum Event {
     Suggested {
         /// Which run.
         run: u32,
-        /// They.
+        /// See the field before.
         steps: Vec<Step>,
     },
     /// The recipe of a grid that was opened from a file, for the form; its method is `file`.
@@ -234,7 +234,7 @@ pub enum Event {
     },
     /// What earlier sessions left unsaved, the newest first.
     Left {
-        /// They.
+        /// See the field before.
         sessions: Vec<Left>,
         /// So many more are offered when these are dealt with.
         more: u32,

@@ -68,7 +68,7 @@ impl Opened {
     /// The same file, of which only these objects are read.
     ///
     /// # Errors
-    /// [`Error::Option`] where it is no file; as [`Opened::named`].
+    /// [`Error::Option`] where it is not a file; as [`Opened::named`].
     pub fn chosen(&self, choice: Choice, job: &Job) -> Result<Opened> {
         let (Some(Reference::File { path, opening, .. }), Some(file)) =
             (&self.reference, &self.file)

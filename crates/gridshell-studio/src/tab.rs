@@ -34,7 +34,7 @@ impl Tab {
     }
 
     /// Send a message and wait until it is answered and no run goes on: one that it began is cancelled. The faults that
-    /// are told; None where the text is no message.
+    /// are told; None where the text is not a message.
     pub fn say(&self, text: &str) -> Option<Vec<String>> {
         let told = self.ask(text);
         self.desk.cancel();

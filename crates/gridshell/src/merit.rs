@@ -60,12 +60,73 @@ pub struct Lengths {
 
 /// Members shorter or longer than this, over the wanted length, are beyond what is wanted.
 const MEMBERS: [f64; 2] = [0.64, 1.42];
-/// Members may be off a wanted direction by so much in the mean, radians, before it counts.
-const ASTRAY: f64 = 0.03;
 /// Members shorter than this, over l0, are hardly ever worth it.
 const LEAST: f64 = 0.61;
 /// Panels of a lower shape q are beyond what is wanted.
 const SHAPE: f64 = 0.68;
+
+/// What holds a grid's merit back. Weights say how much of Q is given up for a unit of what is beyond a limit: with a
+/// weight of 8, merit falls to a half where a spread is 0.125 beyond.
+struct Guards {
+    /// Length spread r that is free for members inside, and for those at the border, which cannot be as even: the limit
+    /// for a grid lies between, by how many it has of each. Tighter ones give calm lengths for restless lines.
+    spread_inside: f64,
+    /// See `spread_inside`.
+    spread_border: f64,
+    /// Of the length spread r: against Q, as lines straighten where lengths may differ.
+    spread_weight: f64,
+    /// Length spread r of the members at the border: an architect sees the border first, but a row that fits it tightly
+    /// costs irregular nodes inside.
+    border_spread: Guard,
+    /// Mean shape q of the panels at the border: ragged panels there against irregular nodes inside.
+    border_shape: Guard,
+    /// Mean shape q that is free for panels inside, and at the border: as for lengths.
+    shape_inside: f64,
+    /// See `shape_inside`.
+    shape_border: f64,
+    /// Of the mean shape q: panels near to equilateral against lines that flow round corners.
+    shape_weight: f64,
+    /// Mean length off the wanted one, over it: without it, grids grow coarser, as fewer nodes have fewer irregular ones.
+    mean_length: Guard,
+    /// Area of the panels over that of the surface: without it, grids cut across what bends.
+    area: Guard,
+    /// Mean angle off a wanted direction, radians: what the designer asks for against what flows by itself.
+    direction: Guard,
+    /// Of single members and panels beyond what is wanted of each: the worst place against the mean.
+    excess_weight: f64,
+}
+
+/// A limit, and what each unit beyond it weighs.
+struct Guard {
+    limit: f64,
+    weight: f64,
+}
+
+impl Guard {
+    fn above(&self, x: f64) -> f64 {
+        self.weight * over(x, self.limit)
+    }
+
+    fn below(&self, x: f64) -> f64 {
+        self.weight * over(self.limit, x)
+    }
+}
+
+/// Found by trials on the six cases of `docs/quality.md`.
+const GUARDS: Guards = Guards {
+    spread_inside: 0.04,
+    spread_border: 0.13,
+    spread_weight: 8.0,
+    border_spread: Guard { limit: 0.12, weight: 6.0 },
+    border_shape: Guard { limit: 0.958, weight: 3.0 },
+    shape_inside: 0.992,
+    shape_border: 0.965,
+    shape_weight: 8.0,
+    mean_length: Guard { limit: 0.01, weight: 10.0 },
+    area: Guard { limit: 0.988, weight: 60.0 },
+    direction: Guard { limit: 0.03, weight: 20.0 },
+    excess_weight: 8.0,
+};
 
 impl Lengths {
     fn count(&mut self, length: f64) {
@@ -183,25 +244,28 @@ impl Sums {
         (disorder > PERFECT).then(|| 1.0 / disorder)
     }
 
-    /// Q, divided by one and what is beyond the guards of length spread, shape, border, mean length, area, and of
-    /// single members and panels. Higher is better.
+    /// Q, divided by one and what is beyond the [guards](Guards). Higher is better.
     pub fn merit(&self, lambda: f64) -> f64 {
-        let over = |x: f64, limit: f64| (x - limit).max(0.0);
-        // Members at the border cannot be as even as those inside.
+        let guards = &GUARDS;
         let share = self.border_members.count / self.members.count.max(1.0);
-        let spread = (share * 0.13 * 0.13 + (1.0 - share) * 0.04 * 0.04).sqrt();
+        let [inside, border] = [guards.spread_inside, guards.spread_border];
+        let spread = (share * border * border + (1.0 - share) * inside * inside).sqrt();
         let share = self.border_panels / self.panels.max(1.0);
-        let even = share * 0.965 + (1.0 - share) * 0.992;
-        let held_back = 8.0 * over(self.members.cv(), spread)
-            + 6.0 * over(self.border_members.cv(), 0.12)
-            + 3.0 * over(0.958, self.border_shape_mean())
-            + 8.0 * over(even, self.shape / self.panels.max(1.0))
-            + 10.0 * over((self.members.mean() - 1.0).abs(), 0.01)
-            + 60.0 * over(0.988, self.area)
-            + 20.0 * over(self.astray / self.guided.max(1.0), ASTRAY)
-            + 8.0 * self.excess;
+        let even = share * guards.shape_border + (1.0 - share) * guards.shape_inside;
+        let held_back = guards.spread_weight * over(self.members.cv(), spread)
+            + guards.border_spread.above(self.border_members.cv())
+            + guards.border_shape.below(self.border_shape_mean())
+            + guards.shape_weight * over(even, self.shape / self.panels.max(1.0))
+            + guards.mean_length.above((self.members.mean() - 1.0).abs())
+            + guards.area.below(self.area)
+            + guards.direction.above(self.astray / self.guided.max(1.0))
+            + guards.excess_weight * self.excess;
         self.fluency(lambda).unwrap_or(1.0 / PERFECT) / (1.0 + held_back)
     }
+}
+
+fn over(x: f64, limit: f64) -> f64 {
+    (x - limit).max(0.0)
 }
 
 impl Add for Lengths {

@@ -183,9 +183,9 @@ pub enum Symmetry {
     None,
     /// The largest that the surface has.
     Auto,
-    /// The mirror plane square to x.
+    /// The mirror plane perpendicular to x.
     X,
-    /// The mirror plane square to y.
+    /// The mirror plane perpendicular to y.
     Y,
     /// Both.
     Xy,

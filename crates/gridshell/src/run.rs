@@ -121,7 +121,7 @@ pub struct PartSummary {
     pub number: usize,
     /// Number of patches, or of the mesh's faces.
     pub faces: usize,
-    /// Area in square metres; 0 where it is no surface.
+    /// Area in square metres; 0 where it is not a surface.
     pub area: f64,
     /// Number of boundary loops.
     pub loops: usize,

@@ -3,7 +3,7 @@
 //! A grid is valid if it is a manifold of the surface's Euler characteristic, lies on the surface with its border on
 //! the surface's, covers its area, has no two nodes at (nearly) one place, no panel that is flat or folded over, and
 //! no member that leaps from sheet to sheet. What the surface itself demands (borders that touch, corners beside one
-//! another, a bend within a member) is no fault, but told by its place.
+//! another, a bend within a member) is not a fault, but told by its place.
 
 use crate::grid::{Grid, Place};
 use crate::merit;
@@ -40,7 +40,7 @@ const MOST_TOLD: usize = 8;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// Its panels are no manifold.
+    /// Its panels are not a manifold.
     Manifold,
     /// Its Euler characteristic is not the surface's.
     Topology,

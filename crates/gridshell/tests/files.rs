@@ -304,7 +304,7 @@ fn what_is_left_out_of_a_rhino_file_is_told_by_name_and_layer() {
     ]) {
         assert!(loss.contains(name) && loss.contains("export it as STEP"), "{loss}");
     }
-    // What was not asked for is no loss.
+    // What was not asked for is not a loss.
     let tubes = Choice { layers: vec!["tubes".into()], ..Choice::default() };
     assert_eq!(told("objects_v7.3dm", Some(BREP), tubes).len(), 1);
     // Nothing else is there: the error says it.

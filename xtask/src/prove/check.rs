@@ -52,7 +52,8 @@ fn read(text: &str) -> Result<(Vec<Point>, Vec<[usize; 3]>), String> {
         match words.next() {
             Some("v") => {
                 let p: Vec<f64> = words.filter_map(|w| w.parse().ok()).collect();
-                let p: Point = p.try_into().map_err(|_| format!("a node is no point: {line}"))?;
+                let p: Point =
+                    p.try_into().map_err(|_| format!("a node is not a point: {line}"))?;
                 if !p.iter().all(|x| x.is_finite()) {
                     return Err(format!("a node is nowhere: {line}"));
                 }

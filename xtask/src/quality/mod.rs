@@ -51,7 +51,11 @@ impl<'a> Scope<'a> {
                 name if FURTHER.contains(&name) || CASES.iter().any(|c| c.name == name) => {
                     scope.names.push(name);
                 }
-                _ => return Err(format!("{arg} is no option and none of the surfaces measured")),
+                _ => {
+                    return Err(format!(
+                        "{arg} is not an option and none of the surfaces measured"
+                    ));
+                }
             }
         }
         Ok(scope)

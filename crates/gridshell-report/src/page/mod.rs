@@ -28,7 +28,7 @@ pub(crate) const COLORINGS: [(&str, &str, Coloring); 5] = [
     ("none", "none", Coloring::None),
 ];
 
-/// Refuse a file that is no page, or cannot be written, before the work is done.
+/// Refuse a file that is not a page, or cannot be written, before the work is done.
 ///
 /// # Errors
 /// [`Error::Option`] for another extension, or a folder that is not there; [`Error::Io`].

@@ -145,7 +145,7 @@ impl<'a> Writing<'a> {
         if self.panel == 0.0 {
             return self.size;
         }
-        // From the middle to a corner of the label, square to a side that rises by sixty degrees.
+        // From the middle to a corner of the label, perpendicular to a side that rises by sixty degrees.
         let corner = 0.75f64.sqrt() * 0.5 * self.panel + 0.25 * HEIGHT;
         let beside = if self.member > 0.0 { 0.5 * HEIGHT } else { 0.0 };
         (radius / (corner + beside)).min(self.size)

@@ -40,7 +40,7 @@ pub(crate) fn legend_of(scale: &colour::Scale) -> String {
     svg::encode(&drawing)
 }
 
-/// Refuse a file that is no picture, or cannot be written, before the work is done.
+/// Refuse a file that is not a picture, or cannot be written, before the work is done.
 ///
 /// # Errors
 /// [`Error::Option`] for an extension that is not known, or a folder that is not there; [`Error::Io`].

@@ -434,7 +434,7 @@ function onPutAway(grids: string[]): void {
 function showTabs(): void {
   const live = el(
     "button",
-    { type: "button", class: "run live", title: "Watch the run that goes on" },
+    { type: "button", class: "run live", title: "Watch the current run" },
     [el("b", {}, ["● live"]), "watch"],
     {
       onclick: () => (following = true),

@@ -206,7 +206,7 @@ ways: Array<Step>, } | { "kind": "suggested",
  */
 run: number, 
 /**
- * They.
+ * See the field before.
  */
 steps: Array<Step>, } | { "kind": "recipe", 
 /**
@@ -218,7 +218,7 @@ run: number,
  */
 values: Record<string, unknown>, } | { "kind": "left", 
 /**
- * They.
+ * See the field before.
  */
 sessions: Array<Left>, 
 /**

@@ -135,14 +135,14 @@ test("a broken file is refused with a clear message, and all stays as it was", a
   const page = await open();
   await choose(page, "hexagon");
   const file = join(folder, "broken.step");
-  writeFileSync(file, "this is no STEP file");
+  writeFileSync(file, "not a STEP file");
   const data = await page.evaluateHandle(
     ([name, text]) => {
       const transfer = new DataTransfer();
       transfer.items.add(new File([text], name));
       return transfer;
     },
-    ["broken.step", "this is no STEP file"],
+    ["broken.step", "not a STEP file"],
   );
   await page.dispatchEvent(".stage", "drop", { dataTransfer: data });
   await page.waitForSelector(".toast.bad:not([hidden])", PATIENCE);

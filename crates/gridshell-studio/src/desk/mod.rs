@@ -108,7 +108,7 @@ impl Desk {
         let recipe = self.recipe(values)?;
         let mut state = self.state();
         if state.going.is_some() {
-            return Err(Error::Option("a run goes on already: cancel it first".into()));
+            return Err(Error::Option("a run is already in progress; cancel it first".into()));
         }
         let going = laying::start(self, opened, recipe, state.numbers + 1);
         state.numbers += 2;
@@ -141,7 +141,7 @@ impl Desk {
         {
             let mut state = self.state();
             if state.work.is_some() {
-                let message = "another edit goes on: wait for it, or cancel it";
+                let message = "another edit is in progress; wait for it or cancel it";
                 return Err(Error::Option(message.into()));
             }
             state.work = Some((run, job.clone()));

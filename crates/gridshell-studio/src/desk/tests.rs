@@ -130,7 +130,7 @@ fn drafts_make_way_first_then_what_was_looked_at_longest_ago() {
     assert_eq!(numbers(&desk), kept(&[4, 9, 13, 2], 16), "1 was looked at");
 }
 
-/// Exporting is no saving; what the page says was saved is, in the version that was.
+/// Exporting is not a saving; what the page says was saved is, in the version that was.
 #[test]
 fn the_copy_against_crashes_stays_until_the_user_has_the_grid() {
     let state = tempfile::tempdir().unwrap();

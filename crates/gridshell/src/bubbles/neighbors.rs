@@ -5,9 +5,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 /// Where points have more neighbours on other sheets than this, on average, those found there are not walked again. A
-/// surface that waves within a member has seven, and walks them for nothing at every list; roofs have a few in all, and
-/// with a lower limit a pair beside a crease that was seen too early would never be seen again.
-const MOST_APART: usize = 1;
+/// surface that waves within a member has seven, and walks them for nothing at every list; where two sheets lie close
+/// together there is one or more, and a pair beside their fold that was seen too early must be seen again.
+const MOST_APART: usize = 4;
 
 /// Neighbours of points that move, brought up to date from time to time.
 #[derive(Default)]
@@ -20,7 +20,7 @@ pub struct Neighbors {
 
 impl Neighbors {
     /// List the neighbours within `radius` anew. A neighbour counts only if walking along the chord on the carrier
-    /// arrives at it, so the other sheet of a fold is no neighbour however near. Points that were neighbours the last
+    /// arrives at it, so the other sheet of a fold is not a neighbour however near. Points that were neighbours the last
     /// time are on one sheet.
     pub fn list(&mut self, carrier: &Carrier, points: &[SurfacePoint], xyz: &[DVec3], radius: f64) {
         let cells = Cells::new(xyz, radius);

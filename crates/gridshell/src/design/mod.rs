@@ -104,7 +104,7 @@ impl Design {
     /// Open the grid in a file on its surface.
     ///
     /// # Errors
-    /// [`Error::Io`](crate::Error::Io), [`Error::Parse`](crate::Error::Parse) with line or element, [`Error::Surface`](crate::Error::Surface) where the panels are no manifold or
+    /// [`Error::Io`](crate::Error::Io), [`Error::Parse`](crate::Error::Parse) with line or element, [`Error::Surface`](crate::Error::Surface) where the panels are not a manifold or
     /// the surface cannot carry them, [`Error::Option`](crate::Error::Option) for a surface or format that is not known.
     pub fn open_with(path: &Path, how: &Reopening, job: &Job) -> Result<Design> {
         reopen::open(path, how, job)?.measured(how, job)
@@ -113,7 +113,7 @@ impl Design {
     /// The grid of a document on the surface made from `model`, which is the one that it was laid on; by itself without.
     ///
     /// # Errors
-    /// [`Error::Surface`](crate::Error::Surface) where the panels are no manifold or the surface cannot carry them.
+    /// [`Error::Surface`](crate::Error::Surface) where the panels are not a manifold or the surface cannot carry them.
     pub fn restore(document: Document, model: Option<&Model>, job: &Job) -> Result<Design> {
         reopen::restore(document, model, job)?.measured(&Reopening::default(), job)
     }

@@ -166,7 +166,7 @@ fn open_document(
 /// The grid of a document on the surface made from `model`, which is the one that it was laid on; by itself without.
 ///
 /// # Errors
-/// [`Error::Surface`] where the panels are no manifold or the surface cannot carry them.
+/// [`Error::Surface`] where the panels are not a manifold or the surface cannot carry them.
 pub(super) fn restore(document: Document, model: Option<&Model>, job: &Job) -> Result<Opened> {
     let xyz: Vec<DVec3> = document.nodes.iter().map(|&p| p.into()).collect();
     let recipe = document.recipe.clone().unwrap_or_default();

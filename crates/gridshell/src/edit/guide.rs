@@ -15,7 +15,7 @@ pub(super) fn add(editor: &Editor, points: &[[f64; 3]]) -> Result<Outcome, Refus
     let length = editor.edge_length;
     let guide: Vec<DVec3> = points.iter().map(|&p| editor.surface.origin.local(p.into())).collect();
     if guide.len() < 2 || guide.iter().any(|p| !p.is_finite() || p.length() > 1e9) {
-        return Err(Refusal::new("that is no line", "give two points or more on the surface"));
+        return Err(Refusal::new("that is not a line", "give two points or more on the surface"));
     }
     let corner_angle = editor.recipe.corner_angle_deg.to_radians();
     let surface = editor.surface.with_guide(&guide, corner_angle, length, &editor.job);

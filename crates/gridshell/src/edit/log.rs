@@ -35,7 +35,7 @@ impl Log {
     /// Read a log from JSON.
     ///
     /// # Errors
-    /// [`Error::Surface`] with the line where it is no log, or one of another version.
+    /// [`Error::Surface`] with the line where it is not a log, or one of another version.
     pub fn from_json(text: &str) -> Result<Log> {
         #[derive(Deserialize)]
         struct Head {

@@ -90,7 +90,7 @@ impl Workbench<'_> {
         if off_a.signum() * off_b.signum() >= 0 {
             return Err(Refusal::new(
                 format!("nodes {a} and {b} have degrees {} and {}", off_a + 6, off_b + 6),
-                "what drifts is a node of a degree below six beside one above",
+                "only an adjacent pair can drift: one node below degree six, one above",
             ));
         }
         if mesh.is_boundary(a) || mesh.is_boundary(b) {

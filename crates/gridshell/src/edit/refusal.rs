@@ -71,7 +71,7 @@ impl Refusal {
             ),
             mesh::Refusal::Link | mesh::Refusal::Boundary => Refusal::new(
                 format!("collapsing {a}-{b} would pinch the grid or take a node off its boundary"),
-                "collapse a member along the boundary, or split one beside first",
+                "collapse along the boundary, or split an adjacent member first",
             ),
             mesh::Refusal::Degree => Refusal::new(
                 format!("collapsing {a}-{b} would leave a node beside it with too few members"),

@@ -48,7 +48,7 @@ pub fn read_at_most(path: &Path, most: u64, job: &Job) -> Result<Vec<u8>> {
 /// The text in a file of at most `most` bytes.
 ///
 /// # Errors
-/// As [`read`]; [`Error::Parse`] where it is no UTF-8.
+/// As [`read`]; [`Error::Parse`] where it is not UTF-8.
 pub fn read_text(path: &Path, most: u64, job: &Job) -> Result<String> {
     String::from_utf8(read_at_most(path, most, job)?).map_err(|e| {
         let text = &e.as_bytes()[..e.utf8_error().valid_up_to()];
@@ -56,7 +56,7 @@ pub fn read_text(path: &Path, most: u64, job: &Job) -> Result<String> {
         refusal(
             path,
             &format!("line {line}"),
-            "this is no text in UTF-8; save it in that encoding".to_owned(),
+            "this is not text in UTF-8; save it in that encoding".to_owned(),
         )
     })
 }
@@ -122,7 +122,7 @@ mod tests {
             read_text(&file, 6, &Job::default())
                 .unwrap_err()
                 .to_string()
-                .contains("line 1: this is no text")
+                .contains("line 1: this is not text")
         );
         fs::remove_file(&file).expect("it was just made");
     }

@@ -36,7 +36,7 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Json> {
             .into_iter()
             .find(|n| bytes.windows(n.len()).any(|w| w == n.as_bytes()));
         let hint = odd.map_or_else(String::new, |n| {
-            format!("; `{n}` in it is no number of JSON: mend what it stands for")
+            format!("; `{n}` in it is not valid JSON; correct the value in the program that wrote the file")
         });
         scan::error(path, format!("line {}", e.line()), format!("this is no JSON: {e}{hint}"))
     })

@@ -45,7 +45,7 @@ fn told(error: &serde_json::Error) -> String {
     }
     let said = error.to_string();
     let said = said.split(" at line ").next().unwrap_or_default();
-    format!("this is no grid file of gridshell: {said}")
+    format!("this is not a grid file of gridshell: {said}")
 }
 
 fn newer(path: &Path, schema: &str) -> Error {

@@ -58,9 +58,9 @@ pub(super) fn read(path: &Path, job: &Job) -> Result<Soup> {
     }
     let stray = stray_lines(&soup.faces, &lines);
     let loose = loose_points(&soup.faces, dots);
-    let lines = ["line that is no edge of a face", "lines that are no edges of faces"];
+    let lines = ["line that is not an edge of a face", "lines that are not edges of faces"];
     soup.note_count(stray, "skipped", lines);
-    let points = ["point that is no corner of a face", "points that are no corners of faces"];
+    let points = ["point that is not a corner of a face", "points that are not corners of faces"];
     soup.note_count(loose, "skipped", points);
     soup.note_count(curves, "skipped", ["curve", "curves"]);
     if curved > 0 {

@@ -180,7 +180,11 @@ impl Head {
                         return Err(line.error(message));
                     }
                 }
-                _ => return Err(line.error(format!("`{}` is no OFF file", scan::clip(&keyword)))),
+                _ => {
+                    return Err(
+                        line.error(format!("`{}` is not an OFF file", scan::clip(&keyword)))
+                    );
+                }
             }
         }
         self.width += usize::from(self.weighted);

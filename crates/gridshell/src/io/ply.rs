@@ -125,7 +125,7 @@ impl Head {
             }
             ["element", name, count] => {
                 let count =
-                    count.parse().map_err(|_| format!("`{}` is no count", scan::clip(count)))?;
+                    count.parse().map_err(|_| format!("`{}` is not a count", scan::clip(count)))?;
                 self.elements.push(Element {
                     name: name.to_owned(),
                     count,
@@ -281,7 +281,7 @@ impl Body<'_> {
     /// A number as that of a vertex.
     fn vertex(&self, v: f64) -> Result<u32> {
         let whole = v >= 0.0 && v < f64::from(u32::MAX) && v.fract() == 0.0;
-        if whole { Ok(v as u32) } else { Err(self.error(&format!("{v} is no vertex number"))) }
+        if whole { Ok(v as u32) } else { Err(self.error(&format!("{v} is not a vertex number"))) }
     }
 
     fn cut_off(&self) -> Error {
@@ -316,7 +316,7 @@ impl Body<'_> {
     fn list(&mut self, property: &Property, mut to: impl FnMut(f64)) -> Result<f64> {
         let length = self.number(property.list.unwrap_or(Scalar::U8))?;
         if !(length >= 0.0 && length.fract() == 0.0) {
-            return Err(self.error(&format!("{length} is no length of a list")));
+            return Err(self.error(&format!("{length} is not a length of a list")));
         }
         for _ in 0..length as u64 {
             to(self.number(property.scalar)?);
@@ -340,7 +340,7 @@ impl Body<'_> {
             return Err(self.cut_off());
         }
         let word = String::from_utf8_lossy(word);
-        word.parse().map_err(|_| self.error(&format!("`{}` is no number", scan::clip(&word))))
+        word.parse().map_err(|_| self.error(&format!("`{}` is not a number", scan::clip(&word))))
     }
 
     fn binary(&mut self, scalar: Scalar) -> Result<f64> {

@@ -100,7 +100,7 @@ pub(super) fn vertex(line: &Line, word: &str, [above, all]: [usize; 2]) -> Resul
     }
 }
 
-/// An error about the file as a whole, or a place in it that is no line.
+/// An error about the file as a whole, or a place in it that is not a line.
 pub(super) fn error(path: &Path, place: impl Into<String>, message: impl Into<String>) -> Error {
     Error::Parse { path: path.to_owned(), place: place.into(), message: message.into() }
 }

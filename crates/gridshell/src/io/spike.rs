@@ -1,4 +1,4 @@
-//! A single vertex far away from all others: a number in the file is wrong, and a spike to it is no roof.
+//! A single vertex far away from all others: a number in the file is wrong, and a spike to it is not a roof.
 
 use super::weld::{Work, place};
 use crate::error::{Error, Result};

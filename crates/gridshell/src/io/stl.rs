@@ -100,7 +100,7 @@ fn read_text(path: &Path, bytes: &[u8], job: &Job) -> Result<Soup> {
             Some("solid") => soup.unit = soup.unit.or_else(|| LengthUnit::stated(line.text)),
             None | Some("facet" | "outer" | "endfacet" | "endsolid" | "color") => {}
             Some(word) => {
-                return Err(line.error(format!("`{}` is no word of STL", scan::clip(word))));
+                return Err(line.error(format!("`{}` is not a word of STL", scan::clip(word))));
             }
         }
     }

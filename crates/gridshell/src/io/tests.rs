@@ -223,7 +223,7 @@ fn texts_are_read_whichever_program_wrote_them() {
         ("mark.obj", [b"\xEF\xBB\xBF", PAIR.as_bytes()].concat(), 2),
         ("wide.obj", [b"\xFF\xFE".to_vec(), wide(PAIR)].concat(), 2),
         ("mac.obj", PAIR.replace('\n', "\r").into(), 2),
-        // A folder in a comment is no continuation, a backslash before blanks is one.
+        // A folder in a comment is not a continuation, a backslash before blanks is one.
         ("folder.obj", format!("# from C:\\roofs\\\n{PAIR}").into(), 2),
         ("blanks.obj", PAIR.replace("1 2 5", "1 2 \\ \n5").into(), 2),
         ("mac.ply", ply.replace('\n', "\r").into(), 1),
@@ -479,7 +479,7 @@ fn compas_faces_as_rings_and_meshes_as_lists_are_read() {
     let lists = r#"{"vertices":[[0,0,0],[1,0,0],[0,1,0]],"faces":[[0,1,2]]}"#;
     assert_eq!(Scratch::new("lists.json", lists).read().expect("lists").faces, [[0, 1, 2]]);
     let beyond = Scratch::new("beyond.json", lists.replace("[0,1,2]]", "[0,1,3]]")).refused();
-    assert!(beyond.contains("face 0: 3 is no place"), "{beyond}");
+    assert!(beyond.contains("face 0: 3 is not a place"), "{beyond}");
     let odd = Scratch::new("odd.json", lists.replace("[1,0,0]", "[NaN,0,0]")).refused();
     assert!(odd.contains("line 1") && odd.contains("`NaN`"), "{odd}");
 }
@@ -502,7 +502,7 @@ fn damaged_compas_files_name_their_place() {
         ("{\n\"vertex\": [}", "line 2"),
         (&FORM.replace("1.5", "null"), "vertex 1: its x"),
         (&FORM.replace("\"a\", 1, 2", "\"a\", 1, 99"), "face 0: vertex 99"),
-        (&FORM.replace("[\"a\", 1, 2, 3]", "5"), "face 0: it is no list"),
+        (&FORM.replace("[\"a\", 1, 2, 3]", "5"), "face 0: it is not a list"),
     ] {
         let message = Scratch::new("damaged.json", text).refused();
         assert!(message.contains(told), "{told}: {message}");

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-/// The text in these bytes. Names and comments may be in any encoding, so what is no UTF-8 is replaced; numbers are
+/// The text in these bytes. Names and comments may be in any encoding, so what is not UTF-8 is replaced; numbers are
 /// ASCII.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     let text = match bytes {

@@ -117,7 +117,9 @@ impl FromStr for LengthUnit {
 
     fn from_str(text: &str) -> Result<LengthUnit> {
         word(text).ok_or_else(|| {
-            Error::Option(format!("`{text}` is no unit of length; the units are mm, cm, m, in, ft"))
+            Error::Option(format!(
+                "`{text}` is not a unit of length; the units are mm, cm, m, in, ft"
+            ))
         })
     }
 }

@@ -1,4 +1,4 @@
-//! Tables of values at points: CSV, one point a line, numbers parted by commas, semicolons or blanks; a first line
+//! Tables of values at points: CSV, one point a line, numbers separated by commas, semicolons or blanks; a first line
 //! of words is a header. What follows `#` is a comment.
 
 use super::{file, scan};

@@ -37,8 +37,9 @@ pub fn usual_limit() -> Option<u64> {
 /// # Errors
 /// [`Error::Option`] for other text, and for nothing or less.
 pub fn parse(text: &str) -> Result<u64> {
-    let wrong =
-        || Error::Option(format!("`{text}` is no amount of memory: give one such as 500M or 2G"));
+    let wrong = || {
+        Error::Option(format!("`{text}` is not an amount of memory: give one such as 500M or 2G"))
+    };
     let text = text.trim();
     let end = text.find(|c: char| c.is_alphabetic()).unwrap_or(text.len());
     let (number, unit) = text.split_at(end);

@@ -1,4 +1,4 @@
-//! Directions square to a given one.
+//! Directions perpendicular to a given one.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use glam::DVec3;
 /// normal of a symmetric roof lies just at it, on one side in millimetres and on the other in metres.
 const ALONG: f64 = 0.876_54;
 
-/// Two unit directions square to the unit vector `normal` and to one another, right-handed with it: x and y themselves
+/// Two unit directions perpendicular to the unit vector `normal` and to one another, right-handed with it: x and y themselves
 /// where it looks up.
 pub(crate) fn tangents(normal: DVec3) -> [DVec3; 2] {
     let axis = if normal.x.abs() < ALONG { DVec3::X } else { DVec3::Y };

@@ -52,7 +52,7 @@ const SENSIBLE_NODES: usize = 1000;
 /// Lay a grid on `model`.
 ///
 /// # Errors
-/// [`Error::Option`] for a recipe that makes no sense, [`Error::Surface`] for a model that is no surface or has
+/// [`Error::Option`] for a recipe that makes no sense, [`Error::Surface`] for a model that is not a surface or has
 /// several parts of which the recipe chooses none or of which too much could not be read, [`Error::NoGrid`] and
 /// [`Error::Invalid`] where no valid grid of this edge length exists or was found.
 pub fn generate(model: &Model, recipe: &Recipe, job: &Job) -> Result<Run> {

@@ -15,7 +15,7 @@ pub struct Members {
     pub ends: Vec<[u32; 2]>,
     /// Length, metres.
     pub length: Vec<f64>,
-    /// Unit vector square to the member along the surface's outward normal: its local z axis.
+    /// Unit vector perpendicular to the member along the surface's outward normal: its local z axis.
     pub normal: Vec<DVec3>,
     /// Twist of the nodes: the angle between the surface normals at its two ends, seen along it from the first to
     /// the second, right-handed; degrees.
@@ -71,19 +71,19 @@ impl Members {
     }
 }
 
-/// The part of `n` square to the unit vector `x`, of unit length; zero where nothing is left.
+/// The part of `n` perpendicular to the unit vector `x`, of unit length; zero where nothing is left.
 fn square_to(x: DVec3, n: DVec3) -> DVec3 {
     (n - x * n.dot(x)).normalize_or_zero()
 }
 
-/// `sum` made a unit vector square to `x`; where it cancels, whatever upright direction there is.
+/// `sum` made a unit vector perpendicular to `x`; where it cancels, whatever upright direction there is.
 fn local_z(x: DVec3, sum: DVec3) -> DVec3 {
     let candidates = [sum, DVec3::Z, DVec3::X];
     let found = candidates.into_iter().map(|n| square_to(x, n)).find(|n| *n != DVec3::ZERO);
     found.unwrap_or(DVec3::Z)
 }
 
-/// Angle from the first vector to the second about `x`; all square to it. Radians.
+/// Angle from the first vector to the second about `x`; all perpendicular to it. Radians.
 fn twist(x: DVec3, [from, to]: [DVec3; 2]) -> f64 {
     trig::atan2(from.cross(to).dot(x), from.dot(to))
 }

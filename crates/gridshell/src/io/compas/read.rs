@@ -26,7 +26,7 @@ struct Found<'a> {
     mesh: &'a Json,
 }
 
-/// Read the mesh; of several in a session file the thrust diagram, else the first that is no form or force diagram.
+/// Read the mesh; of several in a session file the thrust diagram, else the first that is not a form or force diagram.
 ///
 /// # Errors
 /// [`Error::Parse`] with the line, or the vertex or face by its key.
@@ -120,7 +120,7 @@ fn told_way(way: &[Step]) -> String {
     way.iter().map(told).collect::<Vec<_>>().join(".")
 }
 
-/// The rank of a mesh that is no drawing.
+/// The rank of a mesh that is not a drawing.
 const SURFACE: u8 = 2;
 
 /// How likely a mesh is the surface: a thrust diagram is, form and force diagrams are drawings in the plane.
@@ -146,7 +146,7 @@ fn listed(path: &Path, vertices: &[Json], faces: &[Json]) -> Result<Soup> {
         let xyz = numbers.and_then(|n| <[f64; 3]>::try_from(n).ok()).map(DVec3::from);
         let xyz = xyz.filter(|p| p.is_finite());
         soup.points.push(xyz.ok_or_else(|| {
-            fault(path, "vertex", &k.to_string(), "it is no list of x, y, z".into())
+            fault(path, "vertex", &k.to_string(), "it is not a list of x, y, z".into())
         })?);
     }
     for (k, face) in faces.iter().enumerate() {
@@ -154,7 +154,7 @@ fn listed(path: &Path, vertices: &[Json], faces: &[Json]) -> Result<Soup> {
             let v = corner
                 .number()
                 .filter(|v| v.fract() == 0.0 && (0.0..vertices.len() as f64).contains(v));
-            let message = || format!("{} is no place in `vertices`, from 0", told(corner));
+            let message = || format!("{} is not a place in `vertices`, from 0", told(corner));
             v.map(|v| v as u32).ok_or_else(|| fault(path, "face", &k.to_string(), message()))
         };
         let corners =
@@ -216,7 +216,7 @@ fn soup(path: &Path, mesh: &Json) -> Result<Soup> {
             continue;
         }
         let corners = self::corners(corners)
-            .ok_or_else(|| fault(path, "face", key, "it is no list of vertex keys".into()))?;
+            .ok_or_else(|| fault(path, "face", key, "it is not a list of vertex keys".into()))?;
         let mut face = Vec::with_capacity(corners.len());
         for corner in &corners {
             let v = vertex(corner, &numbers).ok_or_else(|| {
@@ -258,7 +258,7 @@ fn told(corner: &Json) -> String {
     match corner {
         Json::Number(x) => format!("{x}"),
         Json::Text(key) => scan::clip(key),
-        _ => "that is no key".into(),
+        _ => "that is not a key".into(),
     }
 }
 

@@ -176,7 +176,9 @@ impl<'a> Numbers<'a> {
             I8 | U8 => 1,
             I16 | U16 => 2,
             U32 | F32 => 4,
-            other => return Err(self.error(accessor, format!("{other} is no type of components"))),
+            other => {
+                return Err(self.error(accessor, format!("{other} is not a type of components")));
+            }
         };
         let size = part * parts;
         let view = at.buffer_view.and_then(|v| self.document.buffer_views.get(v));

@@ -42,7 +42,7 @@ pub(in crate::io) fn read(path: &Path, job: &Job) -> Result<Soup> {
     let bytes = file::read(path, job)?;
     let (text, binary) = chunks(path, &bytes)?;
     let document: Document = serde_json::from_slice(text).map_err(|e| {
-        scan::error(path, format!("line {}", e.line()), format!("this is no glTF document: {e}"))
+        scan::error(path, format!("line {}", e.line()), format!("this is not a glTF document: {e}"))
     })?;
     let numbers = Numbers::new(path, &document, binary, job)?;
     let mut reading = Reading {
@@ -124,7 +124,7 @@ struct Reading<'a> {
     document: &'a Document,
     numbers: Numbers<'a>,
     soup: Soup,
-    /// Primitives that are no triangles.
+    /// Primitives that are not triangles.
     passed: usize,
     /// Nodes that are not shown.
     hidden: usize,

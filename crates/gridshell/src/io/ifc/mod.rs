@@ -81,7 +81,7 @@ pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     w.out.into_bytes()
 }
 
-/// Whether it is supported: a frame that nothing holds is no model for analysis.
+/// Whether it is supported: a frame that nothing holds is not a model for analysis.
 fn is_held(grid: &GridFile) -> bool {
     !grid.document.supports.is_empty()
 }

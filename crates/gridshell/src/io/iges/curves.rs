@@ -151,7 +151,7 @@ fn single(entry: &Entry, p: &Parameters) -> Result<Arc, Fault> {
 /// 106, forms 11 to 13 and 63: straight pieces.
 fn polyline(entry: &Entry, p: &Parameters) -> Result<NurbsCurve, Fault> {
     if !matches!(entry.form, 11..=13 | 63) {
-        return Err(p.fault(format!("form {} of copious data is no curve", entry.form)));
+        return Err(p.fault(format!("form {} of copious data is not a curve", entry.form)));
     }
     let count = p.count(1)?;
     let points: Vec<DVec3> = match p.number(0)? as i64 {

@@ -154,7 +154,7 @@ impl Parameters {
         match self.fields.get(k) {
             Some(Field::Number(x)) => Ok(*x),
             Some(Field::Empty) => Ok(0.0),
-            Some(Field::Text(_)) => Err(self.fault(format!("parameter {} is no number", k + 1))),
+            Some(Field::Text(_)) => Err(self.fault(format!("parameter {} is not a number", k + 1))),
             None => Err(self.fault(format!("parameter {} is missing", k + 1))),
         }
     }
@@ -171,7 +171,7 @@ impl Parameters {
     pub fn count(&self, k: usize) -> Result<usize, Fault> {
         let x = self.number(k)?;
         if x.fract() != 0.0 || x < 0.0 {
-            return Err(self.fault(format!("parameter {} is {x}, which is no count", k + 1)));
+            return Err(self.fault(format!("parameter {} is {x}, which is not a count", k + 1)));
         }
         if x > self.len() as f64 {
             return Err(self.fault(format!(
@@ -195,7 +195,7 @@ impl Parameters {
             return Ok(None);
         }
         if x.fract() != 0.0 || !(1.0..4e9).contains(&x) {
-            return Err(self.fault(format!("parameter {} is {x}, which is no entity", k + 1)));
+            return Err(self.fault(format!("parameter {} is {x}, which is not an entity", k + 1)));
         }
         Ok(Some(x as u32))
     }

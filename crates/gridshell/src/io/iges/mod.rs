@@ -129,7 +129,7 @@ impl File<'_> {
 /// Read the faces of an IGES file.
 ///
 /// # Errors
-/// [`Error::Io`] where the file cannot be opened, [`Error::Parse`] with line or entity where it is no IGES file, too
+/// [`Error::Io`] where the file cannot be opened, [`Error::Parse`] with line or entity where it is not an IGES file, too
 /// large, cut off, or holds no face that can be used.
 pub fn read(path: &Path, job: &Job) -> Result<Brep> {
     let fault =

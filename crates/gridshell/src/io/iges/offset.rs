@@ -35,7 +35,7 @@ impl File<'_> {
         let whole = |distance: f64| offset(distance).map(|s| Shape::Offset(Box::new(s)));
         let (stated, other) = whole(distance)
             .zip(whole(-distance))
-            .ok_or_else(|| p.fault("it is an offset of what is no spline"))?;
+            .ok_or_else(|| p.fault("it is an offset of what is not a spline"))?;
         let near = off(&stated, reach) <= 2.0 * off(&other, reach);
         Ok(Sheet { shape: if near { stated } else { other }, range })
     }

@@ -46,7 +46,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Records, Fault> {
             if number == 1 {
                 return Err(Fault::new(
                     &at,
-                    "this is no IGES file: its first line ends before column 73",
+                    "not an IGES file: its first line ends before column 73",
                 ));
             }
             return Err(Fault::new(
@@ -69,7 +69,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Records, Fault> {
             _ if number == 1 => {
                 return Err(Fault::new(
                     &at,
-                    "this is no IGES file: column 73 of its first line is no S",
+                    "not an IGES file: column 73 of its first line is not S",
                 ));
             }
             other => {

@@ -285,7 +285,7 @@ impl File<'_> {
     }
 }
 
-/// Two unit directions square to `normal` and to each other, the first near `along` where that is given.
+/// Two unit directions perpendicular to `normal` and to each other, the first near `along` where that is given.
 fn across(normal: DVec3, along: DVec3) -> [DVec3; 2] {
     let x = (along - normal * along.dot(normal)).normalize_or_zero();
     let x = if x == DVec3::ZERO { normal.any_orthonormal_vector() } else { x };

@@ -59,7 +59,7 @@ pub(super) fn fields(bytes: &[u8], marks: Delimiters) -> Result<Vec<Field>, Stri
     }
 }
 
-/// A field that is no string.
+/// A field that is not a string.
 fn plain(bytes: &[u8]) -> Result<Field, String> {
     if bytes.iter().all(|&b| b == b' ') {
         return Ok(Field::Empty);
@@ -67,7 +67,7 @@ fn plain(bytes: &[u8]) -> Result<Field, String> {
     number(bytes).map(Field::Number).ok_or_else(|| {
         let shown: String =
             bytes.iter().take(24).flat_map(|&b| char::from(b).escape_default()).collect();
-        format!("`{}` is no number", shown.trim())
+        format!("`{}` is not a number", shown.trim())
     })
 }
 

@@ -155,7 +155,7 @@ fn spline(c: &theirs::NurbsCurve) -> Read<NurbsCurve> {
         .map_err(|e| e.to_string())
 }
 
-/// A trim as it is drawn in the parameters of its face; None where it is no spline.
+/// A trim as it is drawn in the parameters of its face; None where it is not a spline.
 pub(super) fn trim(geometry: &PcurveGeometry) -> Option<NurbsCurve> {
     let PcurveGeometry::Nurbs { nurbs } = geometry else { return None };
     let flat = |p: &FinitePoint2| DVec3::new(p.get().u, p.get().v, 0.0);

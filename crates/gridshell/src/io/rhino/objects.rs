@@ -40,7 +40,7 @@ impl<'a> Reading<'a> {
             }
         }
         for mesh in &arenas.tessellations {
-            // What an exact object is shown by is no object of its own.
+            // What an exact object is shown by is not an object of its own.
             if let Some(owner) = &mesh.source_object {
                 self.object(owner, "mesh");
             }

@@ -47,7 +47,7 @@ enum Found {
 /// Read the faces of a STEP file.
 ///
 /// # Errors
-/// [`Error::Io`] where the file cannot be opened, [`Error::Parse`] where it is no STEP file, too large, or
+/// [`Error::Io`] where the file cannot be opened, [`Error::Parse`] where it is not a STEP file, too large, or
 /// holds no face that can be used; [`Error::Surface`] where it holds triangles only, and they are no surface.
 pub fn read(path: &Path, job: &Job) -> Result<Model> {
     let bytes = file::read_at_most(path, MOST_BYTES, job)?;
@@ -125,17 +125,14 @@ fn told(error: &step_io::Error, bytes: &[u8]) -> (String, String) {
             (last as u32, "the file ends here, before its data do: it is cut off".into())
         }
         _ if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\x1f\x8b") => {
-            return (
-                "file".into(),
-                "it is a compressed file; unpack it, and give what is in it".into(),
-            );
+            return ("file".into(), "it is compressed; unpack it first".into());
         }
         E::UnexpectedToken { span, .. }
             if !bytes.trim_ascii_start().starts_with(b"ISO-10303-21") =>
         {
             return (
                 format!("line {}", span.line),
-                "this is no STEP file: it does not begin with ISO-10303-21".into(),
+                "not a STEP file: it does not begin with ISO-10303-21".into(),
             );
         }
         E::UnexpectedToken { expected, found, span } => {

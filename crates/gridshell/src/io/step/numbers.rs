@@ -4,7 +4,7 @@
 use super::text::{Draft, Text};
 use std::ops::Range;
 
-/// Which parameters of which entities are reals, or lists of them. Of parts of entities the name is no parameter.
+/// Which parameters of which entities are reals, or lists of them. Of parts of entities the name is not a parameter.
 const REALS: [(&str, &[usize]); 17] = [
     ("CARTESIAN_POINT", &[1]),
     ("DIRECTION", &[1]),
@@ -77,7 +77,7 @@ fn words<'b>(bytes: &'b [u8], range: &Range<usize>) -> impl Iterator<Item = Rang
     })
 }
 
-/// The number with its point; None where it has one, or is no number.
+/// The number with its point; None where it has one, or is not a number.
 fn real(word: &[u8]) -> Option<String> {
     let digit = |b: Option<&u8>| b.is_some_and(u8::is_ascii_digit);
     let sign = usize::from(matches!(word.first(), Some(b'+' | b'-')));

@@ -148,7 +148,7 @@ fn outline_that_crosses_itself_is_refused_with_the_place() {
     let sampling = Sampling { max_edge: 0.3, chord_error: 0.002, corner_angle: 0.5 };
     let brep = parse(bow.as_bytes()).unwrap();
     let Err(e) = tessellate(&brep, &sampling, &Job::default()) else {
-        panic!("a bow tie is no face")
+        panic!("a bow tie is not a face")
     };
     assert!(e.to_string().contains("crosses itself near (2."), "{e}");
 }

@@ -238,7 +238,7 @@ fn record(bytes: &[u8], statement: &Range<usize>) -> Option<Record> {
     })
 }
 
-/// What stands between the commas of a list; nothing of what is no list.
+/// What stands between the commas of a list; nothing of what is not a list.
 fn split(bytes: &[u8], list: &Range<usize>) -> Vec<Range<usize>> {
     let trimmed = bytes[list.clone()].trim_ascii_start();
     let from = list.end - trimmed.len();

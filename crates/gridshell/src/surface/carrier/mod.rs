@@ -209,7 +209,7 @@ impl Carrier {
         let into = self.triangles[next as usize].iter().position(|&c| c == end)?;
         let a = self.points[tri[edge] as usize];
         let along = (self.points[end as usize] - a).normalize_or_zero();
-        // The gradient of the corner opposite an edge points inwards, square to the edge.
+        // The gradient of the corner opposite an edge points inwards, perpendicular to the edge.
         let out = -self.gradients[t as usize][(edge + 2) % 3].normalize_or_zero();
         let inn = self.gradients[next as usize][(into + 2) % 3].normalize_or_zero();
         Some((next, into, along * v.dot(along) + inn * v.dot(out)))

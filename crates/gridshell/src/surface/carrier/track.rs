@@ -57,7 +57,7 @@ impl Tracks {
         self.0.remove(&(a.min(b), a.max(b)));
     }
 
-    /// The edge is no feature any more.
+    /// The edge is not a feature any more.
     pub(in crate::surface) fn unmark(&mut self, a: u32, b: u32) {
         if let Some(track) = self.0.get_mut(&(a.min(b), a.max(b))) {
             track.feature = false;

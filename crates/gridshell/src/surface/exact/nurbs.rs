@@ -184,7 +184,7 @@ impl NurbsSurface {
         b
     }
 
-    /// The curve on it where the parameter of direction `k` has this value; None where that is no curve.
+    /// The curve on it where the parameter of direction `k` has this value; None where that is not a curve.
     pub(in crate::surface) fn iso(&self, k: usize, value: f64) -> Option<NurbsCurve> {
         let b = Basis::at(&self.knots[k], self.degree[k], self.count[k], self.closed[k], value);
         let (mut points, mut weights) = (Vec::new(), Vec::new());

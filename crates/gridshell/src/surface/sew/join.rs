@@ -8,7 +8,7 @@ use crate::surface::{Brep, Loss, Origin};
 use crate::words;
 use glam::DVec3;
 
-/// An edge whose ends became one place and that is no longer than so many tolerances is no edge any more.
+/// An edge whose ends became one place and that is no longer than so many tolerances is not an edge any more.
 const SHORT: f64 = 4.0;
 /// Notes name so many places.
 const MOST_PLACES: usize = 3;

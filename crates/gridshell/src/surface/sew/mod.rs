@@ -40,7 +40,7 @@ const REACH: f64 = 32.0;
 /// `brep.sewing` and, in words, among its notes.
 ///
 /// # Errors
-/// [`Error::Option`] where the tolerance asked for is no length, or so large that it would close the model itself.
+/// [`Error::Option`] where the tolerance asked for is not a length, or so large that it would close the model itself.
 pub fn sew(brep: &mut Brep, tolerance: Option<f64>, job: &Job) -> Result<()> {
     let size = size::of_brep(brep);
     if let Some(given) = tolerance {

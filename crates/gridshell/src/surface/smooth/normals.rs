@@ -4,7 +4,7 @@
 //! Interrante 2004). On boundary and creases all that is known lies to one side; there the surface bends along each
 //! edge to a neighbour as much as it does at that neighbour, whose normal is known.
 //!
-//! Each side of a line has a normal of its own. Where a line runs on smoothly, the normal is square to it.
+//! Each side of a line has a normal of its own. Where a line runs on smoothly, the normal is perpendicular to it.
 
 use super::lines::Lines;
 use super::net::Net;
@@ -225,7 +225,7 @@ fn bend_alike(bends: &[(DVec3, DVec3)], normal: DVec3, tangent: Option<DVec3>) -
     (normal + x * u + y * v).normalize_or(normal)
 }
 
-/// Axes square to the normal, the first along the tangent where there is one.
+/// Axes perpendicular to the normal, the first along the tangent where there is one.
 fn axes(normal: DVec3, tangent: Option<DVec3>) -> (DVec3, DVec3) {
     let x = tangent.unwrap_or_else(|| normal.any_orthonormal_vector());
     (x, normal.cross(x))

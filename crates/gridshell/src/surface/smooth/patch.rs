@@ -23,7 +23,7 @@ impl Arc {
         Arc([p, p + reach(from), q - reach(to), q])
     }
 
-    /// From `p` to `q`, square to a normal at each.
+    /// From `p` to `q`, perpendicular to a normal at each.
     pub(super) fn between(p: DVec3, at_p: DVec3, q: DVec3, at_q: DVec3) -> Arc {
         let chord = q - p;
         Arc::new(p, square_to(at_p, chord), q, square_to(at_q, chord))
@@ -43,7 +43,7 @@ impl Arc {
     }
 }
 
-/// The unit vector nearest to `v` that is square to the unit vector `normal`.
+/// The unit vector nearest to `v` that is perpendicular to the unit vector `normal`.
 pub(super) fn square_to(normal: DVec3, v: DVec3) -> DVec3 {
     let flat = v - normal * normal.dot(v);
     flat.try_normalize().unwrap_or_else(|| v.normalize_or_zero())
@@ -59,7 +59,7 @@ pub(super) struct Side {
 }
 
 impl Side {
-    /// Point and unit normal of the surface: between the ends' normals, and square to the curve.
+    /// Point and unit normal of the surface: between the ends' normals, and perpendicular to the curve.
     fn at(&self, s: f64) -> (DVec3, DVec3) {
         let along = self.arc.velocity(s).normalize_or_zero();
         (self.arc.point(s), square_to(along, self.normals[0].lerp(self.normals[1], s)))

@@ -383,7 +383,7 @@ impl<'a> Symmetries<'a> {
             let image = motion.image(sample.point);
             let (foot, axis, _) = self.foot(sample, image);
             let along = |v: DVec3| axis * v.dot(axis);
-            // Off the surface along its normal, off a loop square to its tangent.
+            // Off the surface along its normal, off a loop perpendicular to its tangent.
             let counts = |v: DVec3| if sample.on_loop { v - along(v) } else { along(v) };
             let miss = counts(foot - image);
             let slopes: Vec<DVec3> =

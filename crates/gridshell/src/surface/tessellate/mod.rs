@@ -62,7 +62,7 @@ impl Model {
     /// The surface with a carrier of this sampling.
     ///
     /// # Errors
-    /// [`Error::Surface`] where the model is no manifold surface.
+    /// [`Error::Surface`] where the model is not a manifold surface.
     pub fn surface(&self, sampling: &Sampling, job: &Job) -> Result<Surface> {
         match self {
             Model::Brep(brep) => tessellate(brep, sampling, job),

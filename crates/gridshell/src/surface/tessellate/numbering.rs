@@ -10,7 +10,7 @@ use crate::surface::carrier::{NONE, adjacency};
 use glam::{DVec2, DVec3};
 use std::collections::VecDeque;
 
-/// A direction in which no two places of a sensible surface are equally far out: no symmetry plane is square to
+/// A direction in which no two places of a sensible surface are equally far out: no symmetry plane is perpendicular to
 /// it, and it lies in none.
 const OUT: DVec3 = DVec3::new(0.737_51, 0.541_13, 0.404_27);
 
