@@ -107,8 +107,8 @@ fn a_damaged_grid_file_is_told_with_its_line_and_what_is_wrong() {
     for (damaged, told) in [
         (&text[..text.len() / 2], "was cut off"),
         ("", "it is empty"),
-        ("{}", "no grid file of gridshell: missing field `schema`"),
-        (&text.replace("\"nodes\": [", "\"nodes\": [\n[1, 2],"), "no grid file of gridshell"),
+        ("{}", "not a grid file of gridshell: missing field `schema`"),
+        (&text.replace("\"nodes\": [", "\"nodes\": [\n[1, 2],"), "not a grid file of gridshell"),
         (
             &text.replace("\"panels\": [", "\"panels\": [\n[0, 1, 999],"),
             "panel 0: it uses node 999",
