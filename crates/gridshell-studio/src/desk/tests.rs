@@ -286,7 +286,7 @@ fn nobody_waits_for_an_edit() {
     others.join().unwrap();
     assert!(job.stopped(), "it can be cancelled");
     let refused = desk.change(1, "another", |_, _| Ok(()));
-    assert!(refused.err().unwrap().to_string().contains("another edit goes on"));
+    assert!(refused.err().unwrap().to_string().contains("another edit is in progress"));
     end.send(()).unwrap();
     editing.join().unwrap().unwrap();
     assert!(desk.laid(1).unwrap().unsaved());
