@@ -6,21 +6,40 @@ use std::path::{Path, PathBuf};
 
 type Rooms = BTreeMap<String, BTreeSet<String>>;
 
-/// The table: each room, and the rooms it may use.
+/// The table of the library's rooms.
 fn allowed() -> Rooms {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../ARCHITECTURE.md");
-    let text = fs::read_to_string(path).expect("ARCHITECTURE.md stands at the root");
+    table(&fs::read_to_string(path).expect("ARCHITECTURE.md stands at the root"))
+}
+
+/// The description of the surface's rooms, with their table.
+fn surface() -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/surface/mod.rs");
+    let text = fs::read_to_string(path).expect("the surface's top file");
+    let lines = text.lines().filter_map(|l| l.strip_prefix("//! "));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// A table: each room, and the rooms it may use.
+fn table(text: &str) -> Rooms {
     let mut rooms = Rooms::new();
-    for line in text.lines().filter(|l| l.starts_with("| `")) {
-        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-        let room = cells[1].trim_matches('`').to_owned();
-        let uses = match cells[3] {
+    for (room, uses) in rows(text) {
+        let uses = match uses.as_str() {
             "all above" => rooms.keys().cloned().collect(),
             list => list.split(',').map(|r| r.trim().trim_matches('`').to_owned()).collect(),
         };
         rooms.insert(room, uses);
     }
     rooms
+}
+
+/// The table's rows, in its order: a room, and what is written of the rooms it may use.
+fn rows(text: &str) -> Vec<(String, String)> {
+    let rows = text.lines().filter(|l| l.starts_with("| `")).map(|line| {
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        (cells[1].trim_matches('`').to_owned(), cells[3].to_owned())
+    });
+    rows.collect()
 }
 
 /// The library's source files, without the tests beside the code.
@@ -44,10 +63,14 @@ fn sources() -> Vec<(PathBuf, String)> {
     sources
 }
 
-/// Tests stand at the end of a file; comments may link wherever they like.
+/// Tests stand at the end of a file, or in one of their own; comments may link wherever they like.
 fn without_tests(text: &str) -> String {
-    let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
-    let lines = code.lines().filter(|l| !l.trim_start().starts_with("//"));
+    let mark = "#[cfg(test)]\nmod ";
+    let here =
+        |at: &usize| text[at + mark.len()..].lines().next().is_some_and(|l| l.ends_with('{'));
+    let end = text.match_indices(mark).map(|(at, _)| at).find(here);
+    let lines =
+        text[..end.unwrap_or(text.len())].lines().filter(|l| !l.trim_start().starts_with("//"));
     lines.collect::<Vec<_>>().join("\n")
 }
 
@@ -135,6 +158,61 @@ fn a_stage_never_sees_another() {
         let others: Vec<_> = seen.intersection(&names).collect();
         assert!(others.is_empty(), "{} sees {others:?}", path.display());
     }
+}
+
+/// The room of the surface that a source file belongs to; `mod` for the surface's own top file.
+fn surface_room(path: &Path) -> Option<String> {
+    let inside = path.strip_prefix("surface").ok()?;
+    Some(room_of(inside))
+}
+
+/// The rooms that the surface's top file takes names from for all others to use, by name.
+fn taken_up(code: &str) -> BTreeMap<String, String> {
+    let mut names = BTreeMap::new();
+    for rest in code.lines().filter_map(|l| l.split_once("use ").map(|(_, rest)| rest)) {
+        let Some((room, items)) = rest.trim_end_matches(';').split_once("::") else { continue };
+        let items = items.trim_matches(['{', '}']).split(',').map(str::trim);
+        names.extend(items.map(|item| (item.to_owned(), room.to_owned())));
+    }
+    names
+}
+
+#[test]
+fn rooms_of_the_surface_stand_in_their_table_one_above_the_other() {
+    let text = surface();
+    let rooms = table(&text);
+    let mut above = BTreeSet::new();
+    for (room, _) in rows(&text) {
+        let below: Vec<_> = rooms[&room].iter().filter(|r| rooms.contains_key(*r)).collect();
+        let below: Vec<_> = below.into_iter().filter(|r| !above.contains(*r)).collect();
+        assert!(below.is_empty(), "{room} may use {below:?}, which stand no higher");
+        above.insert(room);
+    }
+    for room in sources().iter().filter_map(|(path, _)| surface_room(path)) {
+        assert!(room == "mod" || rooms.contains_key(&room), "surface/mod.rs has no room {room:?}");
+    }
+}
+
+#[test]
+fn rooms_of_the_surface_know_only_whom_their_table_allows() {
+    let rooms = table(&surface());
+    let sources = sources();
+    let top = sources.iter().find(|(path, _)| path.ends_with("surface/mod.rs"));
+    let taken = taken_up(&top.expect("the surface has a top file").1);
+    let mut trespasses = Vec::new();
+    for (path, code) in &sources {
+        let Some(room) = surface_room(path).filter(|room| room != "mod") else { continue };
+        let depth = path.iter().count() - usize::from(path.ends_with("mod.rs"));
+        let mut names = names_after(code, "crate::surface::");
+        names.extend(names_after(code, &"super::".repeat(depth - 1)));
+        for name in names {
+            let other = taken.get(&name).unwrap_or(&name);
+            if rooms.contains_key(other) && *other != room && !rooms[&room].contains(other) {
+                trespasses.push(format!("{}: {room} uses {other}", path.display()));
+            }
+        }
+    }
+    assert!(trespasses.is_empty(), "not in surface/mod.rs's table:\n{}", trespasses.join("\n"));
 }
 
 #[test]

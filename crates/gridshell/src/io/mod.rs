@@ -7,9 +7,7 @@ mod csv;
 mod digest;
 mod document;
 mod dxf;
-mod far;
 mod file;
-mod fins;
 mod format;
 mod gltf;
 mod grid_file;
@@ -17,7 +15,7 @@ mod ifc;
 pub mod iges;
 mod json;
 mod lines;
-mod merge;
+mod mesh;
 mod native;
 mod obj;
 mod off;
@@ -29,18 +27,12 @@ mod replace;
 mod rhino;
 mod saf;
 mod scan;
-mod soup;
-mod spike;
 pub mod step;
-mod stitch;
 mod stl;
 mod text;
-mod thin;
-mod turn;
 mod unit;
 mod values;
 mod vtu;
-mod weld;
 mod xlsx;
 
 pub use choice::Choice;
@@ -59,8 +51,8 @@ use crate::error::{Error, Result};
 use crate::job::{Job, Picture};
 use crate::math::digits::three;
 use crate::surface::{Model, PolygonMesh, Source, builtin, sew, split_folds};
+use mesh::soup::Soup;
 use serde::{Deserialize, Serialize};
-use soup::Soup;
 use std::path::Path;
 
 /// What a stop in here is told as.
@@ -205,7 +197,7 @@ pub fn read_mesh_with(path: &Path, opening: &Opening, job: &Job) -> Result<Polyg
     // What was broken off tells nothing of the file.
     job.check(READING)?;
     job.progress("read", 0.5, Picture::None);
-    let mesh = weld::weld(path, soup?, opening, job);
+    let mesh = mesh::weld(path, soup?, opening, job);
     job.check(READING)?;
     let mut mesh = mesh?;
     let losses = std::mem::take(&mut mesh.source.losses);

@@ -2,8 +2,8 @@
 //! at hand tell no line numbers.
 
 use super::grid_file::GridFile;
+use super::mesh::soup::Soup;
 use super::scan::{self, Line};
-use super::soup::Soup;
 use super::{LengthUnit, file, text};
 use crate::error::Result;
 use crate::io::WRITING;

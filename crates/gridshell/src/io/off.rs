@@ -5,8 +5,8 @@
 //! word by word as its keyword says, one vertex or face a line, word by word with colours behind faces.
 
 use super::grid_file::GridFile;
+use super::mesh::soup::Soup;
 use super::scan::{self, Line};
-use super::soup::Soup;
 use super::{LengthUnit, file, text};
 use crate::error::{Error, Result};
 use crate::io::WRITING;

@@ -2,7 +2,7 @@
 //! may promise any number of elements: nothing is set aside before the data has been seen.
 
 use super::grid_file::GridFile;
-use super::soup::{Digits, Soup};
+use super::mesh::soup::{Digits, Soup};
 use super::{LengthUnit, file, scan};
 use crate::error::{Error, Result};
 use crate::io::WRITING;

@@ -1,9 +1,9 @@
-//! Stereolithography (STL), binary and text: loose triangles, joined by [`weld`](super::weld). The binary
+//! Stereolithography (STL), binary and text: loose triangles, joined by [`weld`](super::mesh::weld). The binary
 //! form holds single precision only: far from the origin, coordinates lose digits (0.25 m at 4,000 km).
 
 use super::grid_file::GridFile;
-use super::soup::{Digits, Soup};
-use super::{LengthUnit, file, scan, text, weld};
+use super::mesh::soup::{Digits, Soup};
+use super::{LengthUnit, file, mesh, scan, text};
 use crate::error::Result;
 use crate::io::WRITING;
 use crate::job::Job;
@@ -121,7 +121,7 @@ fn push_facet(soup: &mut Soup, corners: [DVec3; 3]) {
 }
 
 fn note_precision(soup: &mut Soup) {
-    let (low, high) = weld::bounds(soup.points.iter().copied());
+    let (low, high) = mesh::work::bounds(soup.points.iter().copied());
     let step = low.abs().max(high.abs()).max_element() * f64::from(f32::EPSILON);
     if step > COARSE * (high - low).max_element() {
         soup.notes.push(format!(

@@ -3,6 +3,28 @@
 //! A *carrier* (fine, manifold, oriented triangle mesh, for walking) with the exact trimmed patches
 //! behind it, where the input had them. Boundary loops are [`Chain`]s of carrier vertices with the
 //! exact curves behind them. Metres throughout.
+//!
+//! Each room uses only rooms above it; the [`Surface`] itself, which all of them know, stands in this file.
+//!
+//! | room | what lives there | may use |
+//! |---|---|---|
+//! | `source` | what a file says of itself | – |
+//! | `origin` | where local coordinates have their origin | – |
+//! | `sampling` | how finely a model is sampled | – |
+//! | `exact` | patches and curves: splines, derivatives, offsets, closest points, areas | – |
+//! | `brep` | the trimmed model of CAD files, and what sewing did to it | `exact`, `origin`, `source` |
+//! | `model` | a B-rep or a polygon mesh; its size; put elsewhere | `brep`, `exact`, `origin`, `source` |
+//! | `builtin` | surfaces by name | `brep`, `exact`, `model` |
+//! | `carrier` | the mesh to walk on, chains of its edges, lengths along them, nearest places, the border, the box | `exact` |
+//! | `polygon` | a mesh as surface: triangles of polygons, caps, halving | `carrier`, `model`, `sampling` |
+//! | `smooth` | a fine mesh through the vertices of a coarse one | `carrier`, `model`, `polygon` |
+//! | `tessellate` | a B-rep as surface: edges sampled, faces trimmed, filled, woven, refined, turned alike, numbered | `brep`, `carrier`, `exact`, `model`, `origin`, `sampling` |
+//! | `sew` | one edge where faces only touch | `brep`, `exact`, `model`, `origin`, `source`, `tessellate` |
+//! | `fold` | faces parted along their folds | `brep`, `exact`, `model`, `sampling`, `tessellate` |
+//! | `features` | creases, guides and anchors cut in and gathered; dense ones thinned; the cutter | `carrier`, `exact`, `origin` |
+//! | `fields` | charts, wanted lengths and directions, sharp bends | `carrier` |
+//! | `symmetry` | turns and mirrorings; the part between two planes | `carrier`, `exact`, `features` |
+//! | `parts` | the parts of a model; surfaces side by side | `brep`, `carrier`, `model`, `source` |
 
 pub mod brep;
 pub mod builtin;

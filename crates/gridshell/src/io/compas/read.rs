@@ -2,7 +2,7 @@
 //! Session files hold several of them in depth. COMPAS states no unit.
 
 use super::super::json::{self, Json};
-use super::super::soup::Soup;
+use super::super::mesh::soup::Soup;
 use super::super::{file, scan};
 use crate::error::{Error, Result};
 use crate::job::Job;

@@ -4,7 +4,7 @@
 use super::document::{Document, Node, Primitive};
 use super::numbers::Numbers;
 use crate::error::{Error, Result};
-use crate::io::soup::{Digits, Soup};
+use crate::io::mesh::soup::{Digits, Soup};
 use crate::io::{LengthUnit, file, scan};
 use crate::job::Job;
 use crate::surface::Loss;

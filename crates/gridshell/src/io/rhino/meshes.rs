@@ -3,8 +3,8 @@
 
 use super::Reading;
 use super::convert;
-use crate::io::soup::Soup;
-use crate::io::{Choice, LengthUnit, Opening, weld};
+use crate::io::mesh::soup::Soup;
+use crate::io::{Choice, LengthUnit, Opening, mesh};
 use crate::job::Job;
 use crate::surface::brep::{BrepEdge, BrepFace, Coedge};
 use crate::surface::nurbs::{NurbsCurve, NurbsSurface};
@@ -150,7 +150,7 @@ impl Reading<'_> {
                     "it has more than {MOST_FACETS} triangles; choose it alone, by layer or name, to read it"
                 )
             } else {
-                match weld::weld(path, mesh.soup(), &Opening::default(), job) {
+                match mesh::weld(path, mesh.soup(), &Opening::default(), job) {
                     Ok(welded) => {
                         self.tell_instead(&mesh);
                         self.facets(mesh.object, &welded);

@@ -16,8 +16,8 @@ mod objects;
 mod source;
 mod table;
 
-use super::soup::Soup;
-use super::{Choice, Opening, READING, file, weld};
+use super::mesh::soup::Soup;
+use super::{Choice, Opening, READING, file, mesh};
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::surface::brep::{Brep, BrepFace};
@@ -231,7 +231,7 @@ impl<'a> Reading<'a> {
         let source = Source { version, losses, ..source::source(self.ir, self.listed) };
         if !exact && !soup.faces.is_empty() {
             let soup = Soup { notes, ..soup };
-            let mesh = weld::weld(path, soup, &Opening::default(), job)?;
+            let mesh = mesh::weld(path, soup, &Opening::default(), job)?;
             let losses = source.losses.into_iter().chain(mesh.source.losses).collect();
             return Ok(Model::Mesh(PolygonMesh { source: Source { losses, ..source }, ..mesh }));
         }

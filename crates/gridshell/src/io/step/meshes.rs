@@ -1,7 +1,7 @@
 //! Triangles in a STEP file (AP242): what it is shown by, or all that there is.
 
 use crate::io::LengthUnit;
-use crate::io::soup::Soup;
+use crate::io::mesh::soup::Soup;
 use crate::surface::Loss;
 use crate::surface::nurbs::{FARTHEST, reach};
 use glam::DVec3;

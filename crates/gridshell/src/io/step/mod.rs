@@ -14,6 +14,7 @@ mod meshes;
 mod numbers;
 mod operators;
 mod owners;
+mod place;
 mod reading;
 mod sets;
 mod shape;
@@ -24,8 +25,8 @@ mod text;
 mod trimmed;
 mod units;
 
-use super::soup::Soup;
-use super::{Opening, READING, file, weld};
+use super::mesh::soup::Soup;
+use super::{Opening, READING, file, mesh};
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::surface::{Brep, Model, PolygonMesh, Source, Unit};
@@ -58,7 +59,7 @@ pub fn read(path: &Path, job: &Job) -> Result<Model> {
     {
         Found::Faces(brep) => Ok(Model::Brep(Brep { name, ..brep })),
         Found::Triangles(soup, source) => {
-            let mesh = weld::weld(path, soup, &Opening::default(), job)?;
+            let mesh = mesh::weld(path, soup, &Opening::default(), job)?;
             let losses = source.losses.into_iter().chain(mesh.source.losses).collect();
             Ok(Model::Mesh(PolygonMesh { source: Source { losses, ..source }, ..mesh }))
         }

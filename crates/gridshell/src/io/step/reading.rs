@@ -2,6 +2,7 @@
 
 use super::operators::Operators;
 use super::owners;
+use super::place::{placed, plain};
 use super::shape;
 use super::text::Text;
 use crate::surface::brep::{Brep, BrepEdge, BrepFace, Coedge};
@@ -453,20 +454,6 @@ fn same_place(a: DMat4, b: DMat4) -> bool {
 /// What it is, with its name.
 pub(super) fn named(what: &str, name: &str) -> String {
     if name.is_empty() { what.to_owned() } else { format!("{what} '{name}'") }
-}
-
-/// Points of the file at their place in metres.
-pub(super) fn placed<'a>(
-    points: impl Iterator<Item = &'a [f64; 3]>,
-    place: DMat4,
-) -> Result<Vec<DVec3>, String> {
-    let placed = points.map(|&p| reach(place.transform_point3(p.into()), FARTHEST));
-    placed.collect::<Result<_, _>>().map_err(|e| e.to_string())
-}
-
-/// Weights, or none where all are 1.
-pub(super) fn plain(weights: Vec<f64>) -> Vec<f64> {
-    if weights.iter().all(|&w| w == 1.0) { Vec::new() } else { weights }
 }
 
 /// The same curve run from its end to its start.

@@ -4,7 +4,7 @@
 //! basis and distance; the basis of an offset of an extrusion has no end of its own, and is made as long as the
 //! face's edges need.
 
-use super::reading::{placed, plain};
+use super::place::{placed, plain};
 use crate::surface::nurbs::NurbsSurface;
 use crate::surface::{OffsetSurface, Shape};
 use glam::{DMat4, DVec3};

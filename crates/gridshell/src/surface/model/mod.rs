@@ -1,4 +1,4 @@
-//! What a file or a built-in name gives, before it is sampled for an edge length.
+//! What a file or a built-in name gives, before it is sampled for an edge length: its size, and how it is put elsewhere.
 
 mod replace;
 pub(in crate::surface) mod size;

@@ -1,4 +1,4 @@
-//! A model put elsewhere: moved, or taken in another unit.
+//! A model put elsewhere: moved, near the origin for one, or taken in another unit.
 
 use super::{Model, PolygonMesh, size};
 use crate::error::{Error, Result};

@@ -1,4 +1,5 @@
-//! The symmetries of a surface: turns about a vertical axis and mirrorings at vertical planes through it.
+//! The symmetries of a surface: turns about a vertical axis and mirrorings at vertical planes through it; and its part
+//! between two vertical planes, as a surface of its own.
 //!
 //! A symmetry is believed when the images of the carrier's vertices lie on the surface and those of its loops'
 //! on the loops. Of a mesh, whose facets are seldom symmetric, they may also lie where the smooth surface that it stands

@@ -1,7 +1,7 @@
 //! Faces turned to the same side, piece by piece: as most of them are, but closed pieces outwards and open ones
 //! upwards where they lean from the vertical.
 
-use super::weld::{Work, place};
+use super::work::{Work, place};
 use crate::error::{Error, Result};
 use glam::DVec3;
 use std::path::Path;

@@ -1,14 +1,14 @@
 //! Faces as a mesh file has them, before anything is known of them: what the mesh readers make and
-//! [`weld`](super::weld) turns into a surface.
+//! [`weld`](super::weld()) turns into a surface.
 
-use super::LengthUnit;
+use crate::io::LengthUnit;
 use crate::surface::Loss;
 use crate::words;
 use glam::DVec3;
 
 /// A soup of faces in the file's own unit.
 #[derive(Debug, Default)]
-pub(super) struct Soup {
+pub(in crate::io) struct Soup {
     /// Vertex positions.
     pub points: Vec<DVec3>,
     /// Faces of three or more corners.
@@ -27,7 +27,7 @@ pub(super) struct Soup {
 
 /// How exactly a file holds coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Digits {
+pub(in crate::io) enum Digits {
     /// As text or in double precision.
     #[default]
     Double,

@@ -1,7 +1,7 @@
 //! T-junctions: a vertex that lies on an edge of a face which does not have it, as meshers leave them between patches.
 //! The face takes it in; without that the mesh would have a slit there.
 
-use super::weld::{Work, uses};
+use super::work::{Work, uses};
 use glam::DVec3;
 use rstar::primitives::GeomWithData;
 use rstar::{AABB, RTree};

@@ -1,6 +1,6 @@
 //! Edges with more than two faces: slivers that hang on a surface are cut off, anything larger is named.
 
-use super::weld::{Use, Work, place, uses};
+use super::work::{Use, Work, place, uses};
 use crate::error::{Error, Result};
 use crate::surface::Loss;
 use std::path::Path;

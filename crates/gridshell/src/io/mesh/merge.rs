@@ -1,7 +1,7 @@
 //! Vertices at the same place become one.
 
 use super::soup::Digits;
-use super::weld::{Work, bounds};
+use super::work::{Work, bounds};
 use crate::error::{Error, Result};
 use glam::DVec3;
 use std::collections::HashMap;

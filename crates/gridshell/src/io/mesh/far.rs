@@ -1,6 +1,6 @@
 //! Small pieces far from everything else: leftovers of the drawing, not of the surface.
 
-use super::weld::{Work, bounds, place};
+use super::work::{Work, bounds, place};
 use crate::surface::Loss;
 use crate::words;
 use glam::DVec3;

@@ -5,42 +5,31 @@
 //! the others, turn neighbours to agree, choose the outside, part pieces that touch in one vertex, and drop unused
 //! vertices. What was done is told in the notes.
 
-use super::soup::Soup;
-use super::{LengthUnit, Opening, READING, far, file, fins, merge, spike, stitch, thin, turn};
+mod far;
+mod fins;
+mod merge;
+pub(super) mod soup;
+mod spike;
+mod stitch;
+mod thin;
+mod turn;
+pub(super) mod work;
+
+use super::{Opening, READING, file};
 use crate::error::{Error, Result};
 use crate::job::Job;
-use crate::surface::nurbs::FARTHEST;
-use crate::surface::{Loss, PolygonMesh, Source, polygon::triangulate};
-use crate::words;
-use glam::DVec3;
+use crate::surface::{PolygonMesh, Source, polygon::triangulate};
+use soup::Soup;
 use std::collections::HashSet;
 use std::path::Path;
+use work::{Work, bounds, neighbors};
 
 /// A surface has more area than this share of its length squared.
 const NO_AREA: f64 = 1e-9;
 /// Faces with more corners are told where nearly all others have up to four: they often stand for openings.
 const MANY_SIDES: usize = 8;
-/// Faces with more corners are refused: nothing that was modelled has them.
-const MOST_SIDES: usize = 10_000;
 /// A face that is cut open to a hole in it has this many corners or more: two triangles and the cut.
 const LEAST_SLIT: usize = 6;
-/// A face's corner, given by face and place, with the direction of its edge.
-pub(super) type Use = (u32, u32, u32, bool);
-
-/// A mesh while it is put right. Metres.
-pub(super) struct Work {
-    pub points: Vec<DVec3>,
-    pub faces: Vec<Vec<u32>>,
-    /// The place of each face in the file.
-    pub origin: Vec<u32>,
-    /// Number of the first face in the file.
-    pub first: usize,
-    pub notes: Vec<String>,
-    pub losses: Vec<Loss>,
-    /// Vertices that were merged into others.
-    pub merged: usize,
-}
-
 /// The soup as a manifold, its faces oriented alike. What the `opening` says of unit and tolerance goes
 /// before what the file does.
 ///
@@ -95,107 +84,6 @@ pub(super) fn weld(path: &Path, soup: Soup, opening: &Opening, job: &Job) -> Res
     })
 }
 
-impl Work {
-    fn new(path: &Path, soup: Soup, wanted: Option<LengthUnit>) -> Result<Work> {
-        let Soup { mut points, faces, mut notes, losses, unit, first, .. } = soup;
-        notes.extend(unit_note(unit, wanted));
-        let metres = wanted.or(unit).map_or(1.0, LengthUnit::metres);
-        if metres != 1.0 {
-            for p in &mut points {
-                *p *= metres;
-            }
-        }
-        let origin = (0..faces.len() as u32).collect();
-        let work = Work { points, faces, origin, first, notes, losses, merged: 0 };
-        work.check(path)?;
-        Ok(work)
-    }
-
-    /// Refuse what is out of all bounds.
-    fn check(&self, path: &Path) -> Result<()> {
-        for (face, f) in self.faces.iter().zip(0..) {
-            let outside = face.iter().find(|&&v| {
-                let p = self.points[v as usize];
-                !p.is_finite() || p.abs().max_element() > FARTHEST
-            });
-            if let Some(&v) = outside {
-                let p = self.points[v as usize];
-                return Err(Error::Surface(format!(
-                    "{}: face {} uses vertex {} at ({:e}, {:e}, {:e}) m, more than {FARTHEST:e} m from the \
-                     origin; correct it, or state the unit",
-                    path.display(),
-                    self.number(f),
-                    v as usize + self.first,
-                    p.x,
-                    p.y,
-                    p.z
-                )));
-            }
-            if face.len() > MOST_SIDES {
-                return Err(Error::Surface(format!(
-                    "{}: face {} has {} corners, more than {MOST_SIDES}; split it",
-                    path.display(),
-                    self.number(f),
-                    face.len()
-                )));
-            }
-        }
-        Ok(())
-    }
-
-    /// The number of a face in the file, as the format counts.
-    pub fn number(&self, face: u32) -> String {
-        (self.origin[face as usize] as usize + self.first).to_string()
-    }
-
-    /// Which vertices a face uses.
-    pub fn used(&self) -> Vec<bool> {
-        let mut used = vec![false; self.points.len()];
-        for &v in self.faces.iter().flatten() {
-            used[v as usize] = true;
-        }
-        used
-    }
-
-    /// Area of a face that is nearly plane.
-    pub fn area(&self, face: &[u32]) -> f64 {
-        let corner = |k: usize| self.points[face[k] as usize] - self.points[face[0] as usize];
-        let sum: DVec3 = (2..face.len()).map(|k| corner(k - 1).cross(corner(k))).sum();
-        sum.length() / 2.0
-    }
-
-    /// Drop the faces that are `gone`.
-    pub fn drop_faces(&mut self, gone: &[bool]) {
-        let mut f = 0;
-        self.faces.retain(|_| {
-            f += 1;
-            !gone[f - 1]
-        });
-        f = 0;
-        self.origin.retain(|_| {
-            f += 1;
-            !gone[f - 1]
-        });
-    }
-
-    pub fn note_count(&mut self, count: usize, verb: &str, what: [&str; 2]) {
-        if count > 0 {
-            self.notes.push(format!("{verb} {}", words::one_or_more(count, what)));
-        }
-    }
-
-    /// As [`Work::drop_faces`], with a note that tells the first.
-    pub fn drop_noted(&mut self, gone: &[bool], what: [&str; 2]) {
-        let Some(first) = gone.iter().position(|&g| g) else { return };
-        let count = gone.iter().filter(|&&g| g).count();
-        let number = self.number(first as u32);
-        let first = if count == 1 { "" } else { "the first is " };
-        let dropped = words::one_or_more(count, what);
-        self.notes.push(format!("left out {dropped}: {first}face {number}"));
-        self.drop_faces(gone);
-    }
-}
-
 fn no_faces(path: &Path, points: usize) -> String {
     let path = path.display();
     if points == 0 {
@@ -218,22 +106,6 @@ fn check_area(path: &Path, work: &Work) -> Result<()> {
 fn no_area(path: &Path, count: usize) -> Error {
     let path = path.display();
     Error::Surface(format!("{path}: the {count} faces have no area: they lie on a line"))
-}
-
-fn unit_note(stated: Option<LengthUnit>, wanted: Option<LengthUnit>) -> Option<String> {
-    match (stated, wanted) {
-        (None, None) => Some("the file states no unit: metres are assumed".into()),
-        (Some(s), Some(w)) if s != w => {
-            Some(format!("the file states {}, but {} was asked for", s.name(), w.name()))
-        }
-        _ => None,
-    }
-}
-
-/// Lowest and highest coordinates; zero when there are no points.
-pub(super) fn bounds(mut points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
-    let Some(first) = points.next() else { return (DVec3::ZERO, DVec3::ZERO) };
-    points.fold((first, first), |(low, high), p| (low.min(p), high.max(p)))
 }
 
 /// Drop corners that repeat the one before, faces with fewer than three corners or a corner twice, and
@@ -305,36 +177,6 @@ fn note_many_sided(work: &mut Work) {
         many.len(),
         numbers.join(", ")
     ));
-}
-
-/// The edges of all faces, those of the same place one after the other.
-pub(super) fn uses(faces: &[Vec<u32>]) -> Vec<Use> {
-    let mut uses: Vec<Use> = Vec::with_capacity(faces.iter().map(Vec::len).sum());
-    for (f, face) in faces.iter().enumerate() {
-        for k in 0..face.len() {
-            let (a, b) = (face[k], face[(k + 1) % face.len()]);
-            uses.push((a.min(b), a.max(b), f as u32, a < b));
-        }
-    }
-    uses.sort_unstable();
-    uses
-}
-
-/// For each face, its neighbours, and whether the two run along their common edge the same way: then they
-/// disagree on the outside.
-fn neighbors(faces: &[Vec<u32>]) -> Vec<Vec<(u32, bool)>> {
-    let mut neighbors = vec![Vec::new(); faces.len()];
-    for edge in uses(faces).chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-        if let [(_, _, f, up), (_, _, g, other_up)] = *edge {
-            neighbors[f as usize].push((g, up == other_up));
-            neighbors[g as usize].push((f, up == other_up));
-        }
-    }
-    neighbors
-}
-
-pub(super) fn place(p: DVec3) -> String {
-    format!("({}, {}, {})", p.x, p.y, p.z)
 }
 
 /// Give each fan of faces round a vertex its own vertex, so that no two touch in a vertex alone.

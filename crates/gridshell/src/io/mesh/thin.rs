@@ -9,7 +9,7 @@
 //!            c                            c
 //! ```
 
-use super::weld::Work;
+use super::work::Work;
 use glam::DVec3;
 use std::collections::HashMap;
 

@@ -1,6 +1,6 @@
 //! A single vertex far away from all others: a number in the file is wrong, and a spike to it is not a roof.
 
-use super::weld::{Work, place};
+use super::work::{Work, place};
 use crate::error::{Error, Result};
 use crate::surface::FARTHEST;
 use glam::DVec3;
