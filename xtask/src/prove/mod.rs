@@ -25,7 +25,8 @@ const MEGABYTES: f64 = 500.0;
 /// Nodes asked for.
 const NODES: &str = "400";
 /// What is said of nodes at nearly one place, where the surface is to blame.
-const NARROW: [&str; 2] = ["as the surface is that narrow", "as two borders are that near"];
+const NARROW: [&str; 3] =
+    ["as the surface is that narrow", "as two borders are that near", "as two borders touch there"];
 /// Exit codes of a refusal: input that cannot be used, no valid grid.
 const REFUSALS: [i32; 2] = [3, 4];
 /// A grid's area over its surface's, and the other way round: beyond, members leap over what they should follow.
