@@ -1,6 +1,7 @@
 //! The arguments.
 
 use clap::{Args as ClapArgs, Parser, Subcommand};
+use gridshell::design;
 use gridshell::io::{Choice, Follow, LengthUnit, Opening};
 use gridshell::job;
 use gridshell_report::picture::{Coloring, Labels, Paper, Sheet};
@@ -232,16 +233,36 @@ pub struct Alike {
 pub struct GridArgs {
     /// A grid: a `.gridshell` file or a triangle mesh (OBJ, PLY, STL, OFF, glTF, COMPAS JSON).
     pub grid: PathBuf,
-    /// The surface it was laid on: a file or a built-in name. Without it a `.gridshell` file tells, and else the grid
-    /// itself is the surface.
+    #[command(flatten)]
+    pub reopening: Reopening,
+}
+
+/// How grids from files are opened.
+#[derive(ClapArgs)]
+pub struct Reopening {
+    /// The surface that a grid was laid on: a file or a built-in name. Without it a `.gridshell` file tells, and else
+    /// the grid itself is the surface.
     #[arg(short, long, value_name = "SURFACE")]
-    pub surface: Option<String>,
+    surface: Option<String>,
     #[command(flatten)]
-    pub reading: Reading,
+    reading: Reading,
     #[command(flatten)]
-    pub following: Following,
+    following: Following,
     #[command(flatten)]
-    pub alike: Alike,
+    alike: Alike,
+}
+
+impl Reopening {
+    /// As the library has it.
+    pub fn given(&self) -> design::Reopening {
+        design::Reopening {
+            surface: self.surface.clone(),
+            follow: self.following.follow(),
+            opening: self.reading.opening(),
+            length_tolerance: self.alike.length_tolerance,
+            angle_tolerance_deg: self.alike.angle_tolerance,
+        }
+    }
 }
 
 #[derive(ClapArgs)]
@@ -293,15 +314,8 @@ pub struct Compare {
     /// The grids: `.gridshell` files or triangle meshes.
     #[arg(required = true, num_args = 1.., value_name = "GRID")]
     pub grids: Vec<PathBuf>,
-    /// The surface they were laid on, as for `measure`.
-    #[arg(short, long, value_name = "SURFACE")]
-    pub surface: Option<String>,
     #[command(flatten)]
-    pub reading: Reading,
-    #[command(flatten)]
-    pub following: Following,
-    #[command(flatten)]
-    pub alike: Alike,
+    pub reopening: Reopening,
     /// A page with the table and a plan of each grid.
     #[arg(long, value_name = "FILE.html")]
     pub html: Option<PathBuf>,
@@ -312,26 +326,16 @@ pub struct Compare {
 
 #[derive(ClapArgs)]
 pub struct Edit {
-    /// A grid: a `.gridshell` file or a triangle mesh (OBJ, PLY, STL, OFF, glTF, COMPAS JSON).
-    pub grid: PathBuf,
+    #[command(flatten)]
+    pub grid: GridArgs,
     /// The edits, as JSON: see docs/editing.md.
     #[arg(long, value_name = "FILE.json")]
     pub log: Option<PathBuf>,
-    /// The surface it was laid on: a file or a built-in name. Without it a `.gridshell` file tells, and else the grid
-    /// itself is the surface.
-    #[arg(short, long, value_name = "SURFACE")]
-    pub surface: Option<String>,
-    #[command(flatten)]
-    pub reading: Reading,
-    #[command(flatten)]
-    pub following: Following,
     /// Where to write the edited grid, in the format of the name's end, as for `generate`; may be given more than once.
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
     #[command(flatten)]
     pub handover: Handover,
-    #[command(flatten)]
-    pub alike: Alike,
     /// Write a grid that the edits made invalid all the same, marked as such, instead of ending with code 4.
     #[arg(long)]
     pub keep_invalid: bool,

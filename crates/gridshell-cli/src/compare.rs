@@ -39,16 +39,11 @@ impl<'a> Entry<'a> {
 pub fn run(args: &Compare, work: &Work) -> Result<Outcome, Failure> {
     let job = &work.job;
     args.html.as_deref().map_or(Ok(()), page::check).map_err(Failure::of_output)?;
-    let how = open::reopening(
-        args.surface.as_deref(),
-        args.reading.opening(),
-        args.following.follow(),
-        &args.alike,
-    );
+    let how = args.reopening.given();
     let mut grids = Vec::new();
     for path in &args.grids {
         let of = format!("{}: ", path.display());
-        grids.push((label(path), open::read(path, &of, &how, job)?));
+        grids.push((label(path), open::one_of_several(path, &of, &how, job)?));
     }
     work.told();
     let mut reported = Ok(());

@@ -42,13 +42,7 @@ pub fn run(args: &Edit, work: &Work) -> Result<Outcome, Failure> {
     let structure = handover::structure(&args.handover)?;
     let supports = handover::supports(&args.handover, job)?;
     let log = args.log.as_deref().map(|path| read_log(path, job)).transpose()?;
-    let how = open::reopening(
-        args.surface.as_deref(),
-        args.reading.opening(),
-        args.following.follow(),
-        &args.alike,
-    );
-    let mut opened = open::read(&args.grid, "", &how, job)?;
+    let mut opened = open::open(&args.grid, job)?;
     opened.structure = structure;
     let mut editor = opened.edit();
     let before = editor.figures();

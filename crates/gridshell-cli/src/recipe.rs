@@ -1,6 +1,6 @@
 //! The recipe of a run: a named method, then the file, then the flags.
 
-use crate::args::{Alike, Generate};
+use crate::args::Generate;
 use crate::failure::Failure;
 use gridshell::io;
 use gridshell::job::Job;
@@ -72,16 +72,9 @@ pub fn from_args(args: &Generate, again: Option<&Recipe>, job: &Job) -> Result<R
     if let Some(border) = args.border {
         recipe.border = border;
     }
-    tolerances(&mut recipe, &args.alike);
+    recipe.measure.count_alike(args.alike.length_tolerance, args.alike.angle_tolerance);
     recipe.validate()?;
     Ok(recipe)
-}
-
-/// Take over the tolerances that are given.
-fn tolerances(recipe: &mut Recipe, alike: &Alike) {
-    let measure = &mut recipe.measure;
-    measure.length_tolerance = alike.length_tolerance.or(measure.length_tolerance);
-    measure.angle_tolerance_deg = alike.angle_tolerance.unwrap_or(measure.angle_tolerance_deg);
 }
 
 /// Three numbers separated by commas, if it is that.

@@ -140,10 +140,9 @@ impl Measure {
     /// What it is, and which way is better.
     pub fn help(&self) -> String {
         let way = match self.better {
-            _ if self.is_fault => "",
-            Better::Less => " Smaller is better.",
+            Better::Less if !self.is_fault => " Smaller is better.",
             Better::More => " Larger is better.",
-            Better::Neither => "",
+            _ => "",
         };
         format!("{}{way}", self.meaning)
     }

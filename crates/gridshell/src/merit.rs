@@ -244,7 +244,8 @@ impl Sums {
         (disorder > PERFECT).then(|| 1.0 / disorder)
     }
 
-    /// Q, divided by one and what is beyond the guards of spread, shape, border, mean length, area and direction. Higher is better.
+    /// Q, divided by one and what is beyond the guards of spread, shape, border, mean length, area and direction. Higher
+    /// is better.
     pub fn merit(&self, lambda: f64) -> f64 {
         let guards = &GUARDS;
         let share = self.border_members.count / self.members.count.max(1.0);

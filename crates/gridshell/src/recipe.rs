@@ -421,6 +421,14 @@ pub struct Measure {
     pub angle_tolerance_deg: f64,
 }
 
+impl Measure {
+    /// Take over the tolerances that are given: of lengths, metres, and of angles, degrees.
+    pub fn count_alike(&mut self, length: Option<f64>, angle_deg: Option<f64>) {
+        self.length_tolerance = length.or(self.length_tolerance);
+        self.angle_tolerance_deg = angle_deg.unwrap_or(self.angle_tolerance_deg);
+    }
+}
+
 impl std::str::FromStr for Effort {
     type Err = Error;
 

@@ -1,8 +1,8 @@
 //! One page that tells of a grid: pictures, a view that can be turned, figures and tables. It holds all it needs, so it
 //! opens without a network; colours and cameras are those of the sheets.
 
+mod cards;
 mod charts;
-mod measures;
 mod pictures;
 mod tables;
 mod viewer;
@@ -64,7 +64,7 @@ pub fn of(design: &Design) -> String {
     }
     body += "</div><p class=\"note\">Black nodes have too few members, white ones too many. <span class=\"screen\">The pictures take \
              their colours from the choice above.</span></p></section>";
-    body += &measures::section(design);
+    body += &cards::section(design);
     body += &charts::section(design);
     body += &tables::figures(design);
     if let Some(run) = run {

@@ -104,8 +104,13 @@ impl Design {
     /// Open the grid in a file on its surface.
     ///
     /// # Errors
-    /// [`Error::Io`](crate::Error::Io), [`Error::Parse`](crate::Error::Parse) with line or element, [`Error::Surface`](crate::Error::Surface) where the panels are not a manifold or
-    /// the surface cannot carry them, [`Error::Option`](crate::Error::Option) for a surface or format that is not known.
+    /// [`Error::Io`], [`Error::Parse`] with line or element, [`Error::Surface`] where the panels are not a manifold or
+    /// the surface cannot carry them, [`Error::Option`] for a surface or format that is not known.
+    ///
+    /// [`Error::Io`]: crate::Error::Io
+    /// [`Error::Parse`]: crate::Error::Parse
+    /// [`Error::Surface`]: crate::Error::Surface
+    /// [`Error::Option`]: crate::Error::Option
     pub fn open_with(path: &Path, how: &Reopening, job: &Job) -> Result<Design> {
         reopen::open(path, how, job)?.measured(how, job)
     }
@@ -159,8 +164,9 @@ impl Design {
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped).
     pub fn edited(&self, editor: &Editor, job: &Job) -> Result<Design> {
-        let document = reopen::edited(&self.document, editor);
-        let (grid, surface) = (Arc::new(editor.finished()), Arc::clone(editor.surface()));
+        let grid = editor.finished();
+        let document = reopen::edited(&self.document, editor, &grid);
+        let (grid, surface) = (Arc::new(grid), Arc::clone(editor.surface()));
         let mut design = Design { document, grid, surface, ..self.clone() };
         design.measure(job)?;
         Ok(design)

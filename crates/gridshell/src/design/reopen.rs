@@ -34,17 +34,6 @@ pub struct Reopening {
     pub angle_tolerance_deg: Option<f64>,
 }
 
-impl Reopening {
-    /// The recipe with what is given here.
-    fn over(&self, mut recipe: Recipe) -> Recipe {
-        let measure = &mut recipe.measure;
-        measure.length_tolerance = self.length_tolerance.or(measure.length_tolerance);
-        measure.angle_tolerance_deg =
-            self.angle_tolerance_deg.unwrap_or(measure.angle_tolerance_deg);
-        recipe
-    }
-}
-
 /// A grid that was read, and the surface it lies on.
 pub(super) struct Opened {
     document: Document,
@@ -60,9 +49,9 @@ pub(super) struct Opened {
 impl Opened {
     /// As a design: measured, within what `how` counts as alike.
     pub(super) fn measured(self, how: &Reopening, job: &Job) -> Result<Design> {
-        let Opened { mut document, grid, surface, summary, edge_length, recipe, notes, losses } =
+        let Opened { mut document, grid, surface, summary, edge_length, mut recipe, notes, losses } =
             self;
-        let recipe = how.over(recipe);
+        recipe.measure.count_alike(how.length_tolerance, how.angle_tolerance_deg);
         let Look { quality, schedule, validity } =
             Look::at(&grid, &surface, edge_length, &recipe, job)?;
         document.panels.clone_from(&schedule.panels.nodes);
@@ -254,10 +243,9 @@ fn with_features(mut grid: Grid, document: &Document) -> Result<Grid> {
     Ok(grid)
 }
 
-/// The document of a grid after editing: the grid as it is, numbered anew, and the edits behind those it had. Supports
-/// and anchors follow their nodes; where the whole boundary was supported, it is again.
-pub(super) fn edited(document: &Document, editor: &Editor) -> Document {
-    let grid = editor.finished();
+/// The document of a grid after editing: the editor's finished `grid`, and the edits behind those it had. Supports and
+/// anchors follow their nodes; where the whole boundary was supported, it is again.
+pub(super) fn edited(document: &Document, editor: &Editor, grid: &Grid) -> Document {
     let now: Vec<u32> = editor.grid().mesh.vertices().collect();
     let follow = |nodes: &[u32]| -> Vec<u32> {
         nodes.iter().filter_map(|v| now.binary_search(v).ok()).map(|v| v as u32).collect()
@@ -269,7 +257,7 @@ pub(super) fn edited(document: &Document, editor: &Editor) -> Document {
     let whole = !held.is_empty() && kept.clone().all(|v| held.binary_search(v).is_ok());
     let supports = if whole { border } else { held };
     let done = editor.history().map(|(edit, _)| serde_json::json!(edit));
-    let fresh = Document::of_grid(&document.name, &grid, editor.surface().origin);
+    let fresh = Document::of_grid(&document.name, grid, editor.surface().origin);
     Document {
         places: grid.places.iter().map(|&p| p.into()).collect(),
         edits: document.edits.iter().cloned().chain(done).collect(),

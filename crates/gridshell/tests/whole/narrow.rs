@@ -4,7 +4,7 @@ use crate::promise::{kept, paper, quick};
 use gridshell::job::Job;
 use gridshell::pipeline;
 use gridshell::recipe::Recipe;
-use gridshell::surface::{Model, PolygonMesh};
+use gridshell::surface::{Model, PolygonMesh, Sampling, builtin};
 use gridshell::{DVec3, Error};
 use std::f64::consts::TAU;
 
@@ -82,4 +82,16 @@ fn nodes_that_no_members_make_are_refused_by_the_surface_s_own_figures() {
     assert!(matches!(error, Error::Surface(_)), "{error}");
     let message = error.to_string();
     assert!(message.contains("400 nodes") && message.contains("boundary"), "{message}");
+}
+
+/// A damaged file's edge, millions of times as long as its surface suits, was laid to an edge length that nobody gave.
+#[test]
+fn an_edge_far_too_long_for_its_surface_is_refused_by_its_place() {
+    let sampling = Sampling { max_edge: 1e-7, chord_error: 1e-9, corner_angle: 1.0 };
+    for name in ["dome", "barrel", "saddle"] {
+        let model = builtin::model(name).expect("it is built in");
+        let error = model.surface(&sampling, &Job::default()).err().expect("too many pieces");
+        assert!(matches!(error, Error::Surface(_)), "{name}: {error}");
+        assert!(error.to_string().contains("starts near ("), "{name}: {error}");
+    }
 }
