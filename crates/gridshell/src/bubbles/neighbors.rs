@@ -4,11 +4,6 @@ use crate::surface::{Carrier, SurfacePoint};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Where points have more neighbours on other sheets than this, on average, those found there are not walked again. A
-/// surface that waves within a member has seven, and walks them for nothing at every list; where two sheets lie close
-/// together there is one or more, and a pair beside their fold that was seen too early must be seen again.
-const MOST_APART: usize = 4;
-
 /// Neighbours of points that move, brought up to date from time to time.
 #[derive(Default)]
 pub struct Neighbors {
@@ -16,19 +11,29 @@ pub struct Neighbors {
     pub lists: Vec<Vec<u32>>,
     /// Points as near as neighbours, but on another sheet; of each pair, those of the higher index.
     apart: Vec<Vec<u32>>,
+    /// Where each point was when all that are near it were last walked to.
+    walked_at: Vec<DVec3>,
 }
 
 impl Neighbors {
     /// List the neighbours within `radius` anew. A neighbour counts only if walking along the chord on the carrier
     /// arrives at it, so the other sheet of a fold is not a neighbour however near. Points that were neighbours the last
-    /// time are on one sheet.
-    pub fn list(&mut self, carrier: &Carrier, points: &[SurfacePoint], xyz: &[DVec3], radius: f64) {
+    /// time are on one sheet; those that were on two are walked again once either has moved by `stray`.
+    pub fn list(
+        &mut self,
+        carrier: &Carrier,
+        points: &[SurfacePoint],
+        xyz: &[DVec3],
+        radius: f64,
+        stray: f64,
+    ) {
         let cells = Cells::new(xyz, radius);
         let has = |lists: &[Vec<u32>], i: usize, j| {
             lists.get(i).is_some_and(|list| list.binary_search(&j).is_ok())
         };
-        let known_apart: usize = self.apart.iter().map(Vec::len).sum();
-        let again = known_apart <= MOST_APART * points.len();
+        self.walked_at.resize(points.len(), DVec3::INFINITY);
+        let strayed: Vec<bool> =
+            xyz.iter().zip(&self.walked_at).map(|(p, &q)| p.distance(q) > stray).collect();
         let (mut lists, apart): (Vec<Vec<u32>>, Vec<Vec<u32>>) = (0..points.len())
             .into_par_iter()
             .map(|i| {
@@ -38,12 +43,15 @@ impl Neighbors {
                 });
                 near.sort_unstable();
                 near.into_iter().partition(|&j| {
+                    let again = strayed[i] || strayed[j as usize] || !has(&self.apart, i, j);
                     has(&self.lists, i, j)
-                        || (again || !has(&self.apart, i, j))
-                            && same_sheet(carrier, &points[i], xyz[j as usize], radius)
+                        || again && same_sheet(carrier, &points[i], xyz[j as usize], radius)
                 })
             })
             .unzip();
+        for i in (0..points.len()).filter(|&i| strayed[i]) {
+            self.walked_at[i] = xyz[i];
+        }
         // Each pair was looked at from one side: the other learns of it, the least neighbours first.
         let mut both: Vec<Vec<u32>> = vec![Vec::new(); points.len()];
         for (i, list) in lists.iter().enumerate() {
@@ -54,7 +62,7 @@ impl Neighbors {
         for (all, above) in both.iter_mut().zip(&mut lists) {
             all.append(above);
         }
-        *self = Neighbors { lists: both, apart };
+        (self.lists, self.apart) = (both, apart);
     }
 }
 
@@ -130,8 +138,25 @@ mod tests {
         let xyz = points.map(|p| carrier.xyz(&p));
         let mut neighbors = Neighbors::default();
         for _ in 0..8 {
-            neighbors.list(&carrier, &points, &xyz, 1.0);
+            neighbors.list(&carrier, &points, &xyz, 1.0, 0.0);
             assert_eq!(neighbors.lists, [vec![1], vec![0], vec![]]);
         }
+    }
+
+    /// A pair that was apart is walked again once one of its points has come round the fold.
+    #[test]
+    fn points_that_come_round_a_fold_become_neighbours() {
+        let carrier = pocket();
+        let lower = SurfacePoint { triangle: 0, bary: [0.5, 0.3, 0.2] };
+        let upper = SurfacePoint { triangle: 4, bary: [0.3, 0.4, 0.3] };
+        let mut neighbors = Neighbors::default();
+        let mut listed = |points: [SurfacePoint; 2]| {
+            let xyz = points.map(|p| carrier.xyz(&p));
+            neighbors.list(&carrier, &points, &xyz, 1.0, 0.1);
+            neighbors.lists.clone()
+        };
+        assert_eq!(listed([lower, upper]), vec![Vec::<u32>::new(); 2]);
+        let round = SurfacePoint { triangle: 4, bary: [0.35, 0.35, 0.3] };
+        assert_eq!(listed([round, upper]), [vec![1], vec![0]]);
     }
 }

@@ -62,10 +62,11 @@ pub fn settle(
         let xyz: Vec<DVec3> = feet.iter().map(|p| carrier.xyz(p)).collect();
         let scales: Vec<f64> = feet.iter().map(|p| surface.scale_at(p)).collect();
         let largest = scales.iter().copied().fold(0.0, f64::max);
-        let strayed = |(p, q): (&DVec3, &DVec3)| p.distance(*q) > 0.5 * SKIN * edge_length;
+        let stray = 0.5 * SKIN * edge_length;
+        let strayed = |(p, q): (&DVec3, &DVec3)| p.distance(*q) > stray;
         if listed_at.is_empty() || xyz.iter().zip(&listed_at).any(strayed) {
             let radius = diameter * largest + SKIN * edge_length;
-            neighbors.list(carrier, &feet, &xyz, radius);
+            neighbors.list(carrier, &feet, &xyz, radius, stray);
             listed_at.clone_from(&xyz);
         }
         bodies.par_iter_mut().enumerate().for_each(|(i, body)| {
