@@ -23,6 +23,22 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** A button that stays pressed until it is pressed again. */
+export function toggle(
+  label: string,
+  title: string,
+  id: string,
+  flipped: (on: boolean) => void,
+): HTMLButtonElement {
+  const button = el("button", { type: "button", "aria-pressed": "false", title, id }, [label]);
+  button.onclick = () => {
+    const on = button.getAttribute("aria-pressed") !== "true";
+    button.setAttribute("aria-pressed", String(on));
+    flipped(on);
+  };
+  return button;
+}
+
 const SVG = "http://www.w3.org/2000/svg";
 
 export function svg(

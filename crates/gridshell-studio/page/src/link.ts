@@ -1,5 +1,6 @@
 // The socket to the server: messages as JSON, frames as flat arrays; opened anew when it breaks.
 import type { Event, FrameHead, Request, Scale, Shows } from "./messages";
+import { Signals } from "./signals";
 
 /** A frame with its arrays laid over the bytes that came. */
 export interface Frame {
@@ -9,11 +10,8 @@ export interface Frame {
   arrays: Map<string, Float32Array | Uint32Array>;
 }
 
-export interface Listener {
-  event(event: Event): void;
-  frame(frame: Frame): void;
-  connected(yes: boolean): void;
-}
+/** What is heard of by name: events by their kind, and whether the server can be reached. */
+type Heard = { [K in Event["kind"]]: Extract<Event, { kind: K }> } & { connected: boolean };
 
 /** Waiting before the next attempt, milliseconds: first and longest. */
 const PAUSE = [250, 4000] as const;
@@ -21,9 +19,19 @@ const PAUSE = [250, 4000] as const;
 export class Link {
   private socket: WebSocket | null = null;
   private pause: number = PAUSE[0];
+  private readonly events = new Signals<Heard>();
+  private readonly frames = new Signals<Record<Shows, Frame>>();
 
-  constructor(private readonly listener: Listener) {
+  constructor() {
     this.open();
+  }
+
+  on<K extends keyof Heard>(kind: K, act: (event: Heard[K]) => void): void {
+    this.events.on(kind, act);
+  }
+
+  onFrame(shows: Shows, act: (frame: Frame) => void): void {
+    this.frames.on(shows, act);
   }
 
   send(request: Request): boolean {
@@ -39,14 +47,19 @@ export class Link {
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.pause = PAUSE[0];
-      this.listener.connected(true);
+      this.events.tell("connected", true);
     };
     socket.onmessage = (message: MessageEvent<string | ArrayBuffer>) => {
-      if (typeof message.data === "string") this.listener.event(JSON.parse(message.data) as Event);
-      else this.listener.frame(decode(message.data));
+      if (typeof message.data === "string") {
+        const event = JSON.parse(message.data) as Event;
+        this.events.tell(event.kind, event);
+      } else {
+        const frame = decode(message.data);
+        this.frames.tell(frame.shows, frame);
+      }
     };
     socket.onclose = () => {
-      this.listener.connected(false);
+      this.events.tell("connected", false);
       setTimeout(() => this.open(), this.pause);
       this.pause = Math.min(2 * this.pause, PAUSE[1]);
     };

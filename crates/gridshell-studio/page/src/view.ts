@@ -171,6 +171,12 @@ export class View {
     this.redraw();
   }
 
+  /** Let these nodes stand out. */
+  mark(nodes: number[]): void {
+    this.grid.mark(nodes);
+    this.redraw();
+  }
+
   /** Look at all of a grid that lies on another surface than what was looked at. */
   private frames(grid: Box3): void {
     const reach = (box: Box3) => box.getSize(new Vector3()).length() || 1;
