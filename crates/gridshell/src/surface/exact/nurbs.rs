@@ -381,6 +381,10 @@ pub(super) fn into_domain(lo: f64, hi: f64, closed: bool, t: f64) -> f64 {
     (t - ((t - lo) / period).floor() * period).clamp(lo, hi)
 }
 
+/// Knots and weights are no larger than this, and weights and steps between knots no smaller than its inverse: far
+/// beyond what a file means, and near enough that rates of change and their squares stay numbers.
+const LARGEST: f64 = 1e30;
+
 fn check_knots(degree: usize, knots: &[f64], count: usize) -> Result<()> {
     let fail = |what: String| Err(Error::Surface(what));
     if !(1..=MAX_DEGREE).contains(&degree) {
@@ -394,6 +398,13 @@ fn check_knots(degree: usize, knots: &[f64], count: usize) -> Result<()> {
     }
     if knots.iter().any(|k| !k.is_finite()) || knots.windows(2).any(|w| w[0] > w[1]) {
         return fail("the knots do not ascend".into());
+    }
+    if let Some(k) = knots.iter().find(|k| k.abs() > LARGEST) {
+        return fail(format!("its knot {k:e} is larger than {LARGEST:e}"));
+    }
+    let near = |w: &&[f64]| w[0] < w[1] && w[1] - w[0] < 1.0 / LARGEST;
+    if let Some(w) = knots.windows(2).find(near) {
+        return fail(format!("its knots {:e} and {:e} are neither equal nor apart", w[0], w[1]));
     }
     if knots[degree] >= knots[count] {
         return fail("the knots leave no domain".into());
@@ -432,6 +443,9 @@ fn check_points(points: &[DVec3], weights: &[f64]) -> Result<()> {
     }
     if weights.iter().any(|&w| !(w.is_finite() && w > 0.0)) {
         return Err(Error::Surface("a weight is not positive".into()));
+    }
+    if let Some(w) = weights.iter().find(|&&w| !(1.0 / LARGEST..=LARGEST).contains(&w)) {
+        return Err(Error::Surface(format!("its weight {w:e} is out of proportion")));
     }
     Ok(())
 }
@@ -488,6 +502,37 @@ mod tests {
             vec![-1., -1., -1., 0., 0.5, 0.5, 2., 2., 2.],
         ];
         NurbsSurface::new([3, 2], knots, count, points.collect(), weights).unwrap()
+    }
+
+    /// A domain 5e-315 wide, in a damaged file, gave a face an area that was not a number.
+    #[test]
+    fn knots_and_weights_beyond_arithmetic_are_refused_and_close_ones_are_not() {
+        let plane = |knots: [f64; 5], weight: f64| {
+            let corners = (0..6).map(|k| DVec3::new(f64::from(k / 2), f64::from(k % 2), 0.0));
+            let weights = vec![1.0, 1.0, weight, 1.0, 1.0, 1.0];
+            let v = vec![0.0, 0.0, 1.0, 1.0];
+            let u = knots.to_vec();
+            NurbsSurface::new([1, 1], [u, v], [3, 2], corners.collect(), weights)
+        };
+        let refused = [
+            ([0.0, 0.0, 2e-315, 5e-315, 5e-315], 1.0),
+            ([0.0, 0.0, 1e-40, 3.0, 3.0], 1.0),
+            ([-1e300, -1e300, 0.0, 1e300, 1e300], 1.0),
+            ([0.0, 0.0, 1.0, 2.0, 2.0], 1e-310),
+            ([0.0, 0.0, 1.0, 2.0, 2.0], 1e200),
+        ];
+        for (knots, weight) in refused {
+            assert!(plane(knots, weight).is_err(), "{knots:?}, {weight:e}");
+        }
+        let taken = [[0.0, 0.0, 1e-17, 3.0, 3.0], [1e6, 1e6, 1e6 + 1e-9, 2e6, 2e6]];
+        for knots in taken {
+            let surface = plane(knots, 1.0).expect("an odd plane");
+            for at in 0..=8 {
+                let u = knots[0] + (knots[4] - knots[0]) * f64::from(at) / 8.0;
+                let jet = surface.jet(DVec2::new(u, 0.5));
+                assert!(jet.point.z == 0.0 && jet.du.cross(jet.dv).length().is_finite());
+            }
+        }
     }
 
     #[test]
