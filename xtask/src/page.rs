@@ -11,6 +11,11 @@ pub fn build() -> Result<(), String> {
     npm(&page, &["run", "build"])
 }
 
+/// The licences of the packages inside the page, once it is built.
+pub fn licences() -> PathBuf {
+    folder().join("dist/licences.md")
+}
+
 /// Run all tests; `hear` is told the result in a line like cargo's.
 pub fn test(hear: &mut dyn FnMut(&str)) -> Result<(), String> {
     let page = folder();
