@@ -1,4 +1,5 @@
 //! Builds the page into the program: a copy of its sources in the output folder, so that the source tree stays clean.
+//! The packaged crate has the built page instead of the sources, and needs no Node.
 //!
 //! Without npm, or where its packages cannot be had, the program is built without the page and says so when it is
 //! opened. With `CARGO_NET_OFFLINE=true` only npm's own cache is asked; `GRIDSHELL_NO_PAGE` leaves the page out.
@@ -13,14 +14,21 @@ const SOURCES: [&str; 6] =
     ["index.html", "package.json", "package-lock.json", "tsconfig.json", "vite.config.ts", "src"];
 
 fn main() {
-    for source in SOURCES {
-        println!("cargo::rerun-if-changed=page/{source}");
+    let packaged = !Path::new("page/package.json").exists();
+    if packaged {
+        println!("cargo::rerun-if-changed=page/dist");
+    } else {
+        for source in SOURCES {
+            println!("cargo::rerun-if-changed=page/{source}");
+        }
     }
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-env-changed=GRIDSHELL_NO_PAGE");
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
     let built = if env::var_os("GRIDSHELL_NO_PAGE").is_some() {
         Err("GRIDSHELL_NO_PAGE is set".to_owned())
+    } else if packaged {
+        Ok(packed().expect("the package has the built page: `cargo xtask package` makes it"))
     } else {
         build(Path::new("page"), &out.join("page"))
     };
@@ -35,6 +43,14 @@ fn main() {
     }
     list += "];\n";
     fs::write(out.join("page.rs"), list).expect("the output folder can be written to");
+}
+
+/// The files of the page that was built before packaging, by name and path.
+fn packed() -> io::Result<Vec<(String, PathBuf)>> {
+    let mut files = Vec::new();
+    collect(&env::current_dir()?.join("page/dist"), "", &mut files)?;
+    files.sort();
+    Ok(files)
 }
 
 /// The page's files, by name and path.

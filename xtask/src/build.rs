@@ -28,6 +28,14 @@ pub fn cargo_aloud(args: &[&str], mut hear: impl FnMut(&str)) -> Result<(), Stri
     ended(args, status)
 }
 
+/// Run cargo, and take what it prints.
+pub fn read_cargo(args: &[&str]) -> Result<String, String> {
+    let output = command_line(args).stderr(Stdio::inherit()).output();
+    let output = output.map_err(|e| format!("cargo does not start: {e}"))?;
+    ended(args, output.status)?;
+    String::from_utf8(output.stdout).map_err(|e| e.to_string())
+}
+
 fn command_line(args: &[&str]) -> Command {
     eprintln!("cargo {}", args.join(" "));
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
@@ -42,7 +50,7 @@ fn ended(args: &[&str], status: ExitStatus) -> Result<(), String> {
 /// The command `gridshell`, built for speed.
 pub fn gridshell() -> Result<PathBuf, String> {
     cargo(&["build", "--release", "--quiet", "--package", "gridshell-cli"], &[])?;
-    Ok(target().join("release/gridshell"))
+    Ok(target().join(format!("release/gridshell{}", std::env::consts::EXE_SUFFIX)))
 }
 
 /// The command `gridshell` as the tests have it: whoever has run them waits for nothing.

@@ -3,11 +3,12 @@
 use crate::build::{cargo, cargo_aloud};
 use crate::{page, readers};
 
-/// Format, clippy on all targets, rustdoc.
+/// Format, clippy on all targets, rustdoc of private items too.
 pub fn lint() -> Result<(), String> {
     cargo(&["fmt", "--all", "--check"], &[])?;
     cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "-D", "warnings"], &[])?;
-    cargo(&["doc", "--workspace", "--no-deps", "--quiet"], &[("RUSTDOCFLAGS", "-D warnings")])
+    let doc = ["doc", "--workspace", "--no-deps", "--document-private-items", "--quiet"];
+    cargo(&doc, &[("RUSTDOCFLAGS", "-D warnings")])
 }
 
 /// Every test of the workspace, those in the documentation, and the readers of others; the last line printed sums them up as cargo

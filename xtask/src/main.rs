@@ -1,5 +1,5 @@
 //! The project's own chores: `cargo xtask lint | test | readers | cases | bench | picture | pictures | prove |
-//! fuzz`.
+//! fuzz | package | dist`.
 //!
 //! Everything here builds in the dev profile, so that the dependencies are compiled once; only the chores that
 //! lay grids run the release build of the command, because they tell times or take theirs.
@@ -9,6 +9,8 @@ mod cases;
 mod check;
 mod fuzz;
 mod laid;
+mod licences;
+mod package;
 mod page;
 mod prove;
 mod quality;
@@ -39,7 +41,10 @@ usage: cargo xtask CHORE
                           valid grid or a refusal in words, within 10 processor seconds and 500 MB
   fuzz [READER]... [--minutes N]
                           damaged files for every reader (or these), 15 minutes each; needs the nightly
-                          compiler and cargo-fuzz";
+                          compiler and cargo-fuzz
+  package                 the crates as they are published, each built from its package; wants npm
+  dist                    an archive of the command for this machine, with completions, man pages, licences and
+                          checksums, into the target folder; wants npm and tar";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -52,6 +57,8 @@ fn main() -> ExitCode {
         ["picture", surface, file] => quality::picture(surface, file.as_ref()),
         ["prove", rest @ ..] => prove::Plan::parse(rest).and_then(|plan| prove::run(&plan)),
         ["fuzz", rest @ ..] => fuzz::Plan::parse(rest).and_then(|plan| fuzz::run(&plan)),
+        ["package"] => package::crates(),
+        ["dist"] => package::dist(),
         ["bench", "quality", rest @ ..] => Scope::parse(rest).and_then(|s| quality::bench(&s)),
         ["pictures", rest @ ..] => Scope::parse(rest).and_then(|s| quality::gallery(&s)),
         _ => {

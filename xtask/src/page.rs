@@ -1,14 +1,26 @@
-//! The tests of the studio's page: types and format, then a person's steps in Chromium.
+//! The studio's page: built for packages, and its tests: types and format, then a person's steps in Chromium.
 
 use crate::build::tested;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Run them all; `hear` is told the result in a line like cargo's.
+/// Build it where the package of the studio takes it from.
+pub fn build() -> Result<(), String> {
+    let page = folder();
+    npm(&page, &INSTALL)?;
+    npm(&page, &["run", "build"])
+}
+
+/// The licences of the packages inside the page, once it is built.
+pub fn licences() -> PathBuf {
+    folder().join("dist/licences.md")
+}
+
+/// Run all tests; `hear` is told the result in a line like cargo's.
 pub fn test(hear: &mut dyn FnMut(&str)) -> Result<(), String> {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/gridshell-studio/page");
+    let page = folder();
     let chromium = chromium()?;
-    npm(&page, &["ci", "--prefer-offline", "--no-audit", "--no-fund"])?;
+    npm(&page, &INSTALL)?;
     npm(&page, &["run", "check"])?;
     let command = tested()?;
     eprintln!("node --test");
@@ -33,7 +45,12 @@ pub fn test(hear: &mut dyn FnMut(&str)) -> Result<(), String> {
     if output.status.success() { Ok(()) } else { Err("the page's tests failed".into()) }
 }
 
-const NODE: &str = "the page's tests want Node 20.19 or newer with npm: install it";
+const NODE: &str = "the page wants Node 20.19 or newer with npm: install it";
+const INSTALL: [&str; 4] = ["ci", "--prefer-offline", "--no-audit", "--no-fund"];
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/gridshell-studio/page")
+}
 
 fn npm(folder: &Path, arguments: &[&str]) -> Result<(), String> {
     eprintln!("npm {}", arguments.join(" "));

@@ -57,6 +57,9 @@ pub enum Command {
     Studio(Studio),
     /// List the built-in surfaces, with a sensible edge length each.
     Surfaces,
+    /// Write shell completions and man pages, for packages of the command.
+    #[command(hide = true)]
+    Manual(Manual),
 }
 
 /// How the surface is read from its file.
@@ -383,6 +386,12 @@ pub struct Studio {
     /// A folder with a built page instead of the one in this program, for working on the page.
     #[arg(long, value_name = "FOLDER", hide = true)]
     pub page: Option<PathBuf>,
+}
+
+#[derive(ClapArgs)]
+pub struct Manual {
+    /// Where to write them: in the folders `completions` and `man` below it, which are made.
+    pub folder: PathBuf,
 }
 
 fn memory(text: &str) -> Result<u64, String> {

@@ -9,6 +9,7 @@ mod failure;
 mod generate;
 mod handover;
 mod inspect;
+mod manual;
 mod measure;
 mod open;
 mod progress;
@@ -81,6 +82,7 @@ fn run(args: &Args, work: &Work) -> Result<Outcome, Failure> {
         #[cfg(feature = "studio")]
         Command::Studio(args) => studio::run(args, limits),
         Command::Surfaces => surfaces::run(),
+        Command::Manual(args) => manual::run(args),
     }
 }
 

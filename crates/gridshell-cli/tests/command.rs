@@ -457,3 +457,20 @@ fn a_run_on_a_file_in_another_unit_and_on_a_part_is_repeated() {
         assert!(measured["quality"]["surface_deviation"].as_f64().expect("told") < 1e-6);
     }
 }
+
+#[test]
+fn completions_and_man_pages_are_made_of_the_arguments() {
+    let folder = folder();
+    let output = gridshell(folder.path(), "manual papers");
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let read = |name: &str| {
+        let text = fs::read_to_string(folder.path().join("papers").join(name));
+        text.unwrap_or_else(|e| panic!("{name}: {e}"))
+    };
+    for name in ["gridshell.bash", "gridshell.fish", "_gridshell", "_gridshell.ps1"] {
+        assert!(read(&format!("completions/{name}")).contains("time-limit"), "{name}");
+    }
+    assert!(read("man/gridshell.1").contains("Exit codes"));
+    assert!(read("man/gridshell-generate.1").contains("edge\\-length"));
+    assert!(!folder.path().join("papers/man/gridshell-manual.1").exists());
+}

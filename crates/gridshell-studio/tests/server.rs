@@ -239,7 +239,7 @@ async fn a_file_named_like_a_built_in_surface_is_still_the_users() {
     let up = up().await;
     let mut tab = up.tab().await;
     hear(&mut tab, &["idle"]).await;
-    let files = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../gridshell/tests/files");
+    let files = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/files");
     let file = std::fs::read(files.join("assembly_m.step")).unwrap();
     let answer = up.post(&format!("/{}/open?name=dome.step", up.token), &file).await;
     assert_eq!(status(&answer), "204", "{answer}");

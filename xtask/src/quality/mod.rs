@@ -5,6 +5,7 @@ mod bars;
 mod figure;
 mod gallery;
 mod table;
+mod trouble;
 
 pub use gallery::{gallery, picture};
 
@@ -15,6 +16,7 @@ use figure::Figure;
 use std::fs;
 use std::path::{Path, PathBuf};
 use table::Table;
+use trouble::{Trouble, summary};
 
 /// Seeds of the further surfaces.
 const SEEDS: u64 = 5;
@@ -107,7 +109,7 @@ fn docs() -> PathBuf {
 }
 
 /// The six cases: a column each, figures in rows, then the same of the paper's method.
-fn six(gridshell: &Path, scope: &Scope, troubles: &mut Vec<String>) -> Table {
+fn six(gridshell: &Path, scope: &Scope, troubles: &mut Vec<Trouble>) -> Table {
     let mut rows: Vec<Vec<String>> = vec![vec![String::new()]];
     rows.extend(Figure::ALL.map(|f| vec![f.title().to_owned()]));
     rows.push(vec!["bars reached".to_owned()]);
@@ -117,7 +119,7 @@ fn six(gridshell: &Path, scope: &Scope, troubles: &mut Vec<String>) -> Table {
         let surface = scope.surface(case);
         let edge_length = Some(case.edge_length);
         let order = Order { edge_length, ..Order::plain(&surface) };
-        let run = told(case.name, lay(gridshell, &order), troubles);
+        let run = told(case.name, 1, lay(gridshell, &order), troubles);
         let paper = lay(gridshell, &Order { method: "paper", ..order }).ok();
         let mut column = vec![case.name.to_owned()];
         let (mut reached, mut all) = (0, 0);
@@ -149,7 +151,7 @@ fn cell(figure: Figure, value: f64, bar: Option<&Bar>) -> String {
 }
 
 /// The further surfaces: a row each, the median and the worst over the seeds, then the paper's method.
-fn further(gridshell: &Path, scope: &Scope, troubles: &mut Vec<String>) -> Table {
+fn further(gridshell: &Path, scope: &Scope, troubles: &mut Vec<Trouble>) -> Table {
     let mut head = vec![String::new(), "nodes".to_owned()];
     head.extend(SHORT.map(|f| f.title().to_owned()));
     head.extend(SHORT.map(|f| format!("paper {}", f.title())));
@@ -160,7 +162,7 @@ fn further(gridshell: &Path, scope: &Scope, troubles: &mut Vec<String>) -> Table
         let mut runs = Vec::new();
         for seed in 1..=scope.seeds {
             let order = Order { seed, ..Order::plain(name) };
-            runs.extend(told(&format!("{name}, seed {seed}"), lay(gridshell, &order), troubles));
+            runs.extend(told(name, seed, lay(gridshell, &order), troubles));
         }
         let of = |figure: Figure| -> Vec<f64> { runs.iter().map(|run| figure.of(run)).collect() };
         let nodes = of(Figure::Nodes).first().copied().unwrap_or(f64::NAN);
@@ -179,22 +181,28 @@ fn further(gridshell: &Path, scope: &Scope, troubles: &mut Vec<String>) -> Table
 }
 
 /// The run if there is one; what is wrong with it is added to `troubles`.
-fn told(name: &str, run: Result<Laid, String>, troubles: &mut Vec<String>) -> Option<Laid> {
-    let run = run.map_err(|e| troubles.push(format!("{name}: no grid: {e}"))).ok()?;
+fn told(
+    surface: &str,
+    seed: u64,
+    run: Result<Laid, String>,
+    troubles: &mut Vec<Trouble>,
+) -> Option<Laid> {
+    let mut add = |what| troubles.push(Trouble { surface: surface.to_owned(), seed, what });
+    let run = run.map_err(|e| add(format!("no grid: {e}"))).ok()?;
     for figure in [Figure::Bridging, Figure::Folded] {
         let count = figure.of(&run);
         if count != 0.0 {
-            troubles.push(format!("{name}: {count} {}", figure.title()));
+            add(format!("{count} {}", figure.title()));
         }
     }
     let warnings = run.document["warnings"].as_array();
     let warnings = warnings.into_iter().flatten().filter_map(|w| w.as_str());
-    troubles.extend(warnings.map(|warning| format!("{name}: {warning}")));
+    warnings.for_each(|warning| add(warning.to_owned()));
     Some(run)
 }
 
 /// `docs/quality.md`.
-fn page(scope: &Scope, cases: &Table, further: &Table, troubles: &[String]) -> String {
+fn page(scope: &Scope, cases: &Table, further: &Table, troubles: &[Trouble]) -> String {
     let source = match scope.folder {
         Some(_) => "The cases are STEP files of these names.",
         None => {
@@ -223,7 +231,7 @@ fn page(scope: &Scope, cases: &Table, further: &Table, troubles: &[String]) -> S
     );
     if !troubles.is_empty() {
         text += "\n## What the runs warned of\n\n";
-        text.extend(troubles.iter().map(|t| format!("- {t}\n")));
+        text.extend(summary(troubles).iter().map(|line| format!("- {line}\n")));
     }
     text
 }

@@ -11,7 +11,7 @@ use std::path::Path;
 /// Read a grid file.
 ///
 /// # Errors
-/// [`Error::Parse`](crate::Error::Parse) with the line of what is no such file, or the node or panel that is wrong.
+/// [`Error::Parse`] with the line of what is no such file, or the node or panel that is wrong.
 pub fn read_document(path: &Path, job: &Job) -> Result<Document> {
     let bytes = file::read(path, job)?;
     let document: Document = match serde_json::from_slice(&bytes) {

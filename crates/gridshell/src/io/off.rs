@@ -18,7 +18,7 @@ use std::path::Path;
 /// Read an OFF file in text, with or without colours (COFF), normals (NOFF), texture (STOFF) or a weight (4OFF).
 ///
 /// # Errors
-/// [`Error::Parse`](crate::Error::Parse) with the line.
+/// [`Error::Parse`] with the line.
 pub(super) fn read(path: &Path, job: &Job) -> Result<Soup> {
     let bytes = file::read(path, job)?;
     let text = text::decode(&bytes);

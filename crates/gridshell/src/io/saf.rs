@@ -1,6 +1,6 @@
 //! A grid in the Structural Analysis Format (SAF, `.saf.xlsx`), version 2.0.0 or 1.0.5: one sheet a kind, after the
 //! public specification. The surface's normal is every member's local z axis. Lists are joined by semicolons; section,
-//! material and panes are stated assumptions of [`Structure`](crate::structure::Structure).
+//! material and panes are stated assumptions of [`Structure`].
 
 use super::GridFile;
 use super::xlsx::Cell::{Blank, Made, Number, Text};

@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// `brep` with every face bounded by loops that close in (u, v).
 ///
 /// # Errors
-/// [`Error::Surface`] naming the face that has neither loops nor an end.
+/// [`Error::Surface`](crate::Error::Surface) naming the face that has neither loops nor an end.
 pub(super) fn complete(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Brep> {
     let mut brep = brep.clone();
     poles::part(&mut brep);
@@ -50,7 +50,7 @@ pub(super) fn complete(brep: &Brep, sampling: &Sampling, job: &Job) -> Result<Br
 /// added since may be missing.
 ///
 /// # Errors
-/// [`Error::Surface`] naming the face where its loops bound nothing.
+/// [`Error::Surface`](crate::Error::Surface) naming the face where its loops bound nothing.
 pub(in crate::surface) fn close(
     brep: &mut Brep,
     i: usize,
@@ -183,7 +183,7 @@ fn clear_of(shape: &Shape, traced: &[Traced]) -> std::result::Result<DVec2, Stri
 /// Bound face `i`, whose loops are at most holes, by the sides of its patch.
 ///
 /// # Errors
-/// [`Error::Surface`] where the patch has no end, or no side that is a curve.
+/// [`Error::Surface`](crate::Error::Surface) where the patch has no end, or no side that is a curve.
 pub(crate) fn bound(brep: &mut Brep, i: usize) -> Result<()> {
     let [[u, _], [v, _]] = brep.faces[i].shape.domain();
     bound_from(brep, i, DVec2::new(u, v))
