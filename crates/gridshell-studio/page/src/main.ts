@@ -8,7 +8,7 @@ import { Form } from "./form";
 import { type Frame, Link } from "./link";
 import type { Event, Hello, Picked, Progress, RunSummary, SurfaceInfo } from "./messages";
 import { Notices } from "./notices";
-import { gradient, THEMES } from "./palette";
+import { bands, THEMES } from "./palette";
 import { Recovery } from "./recovery";
 import { Report } from "./report";
 import { download, Saving } from "./saving";
@@ -495,26 +495,23 @@ function show(run: number): void {
 
 function showLegend(frame: Frame): void {
   const scale = frame.scale!;
-  const unit = scale.unit ? ` ${scale.unit}` : "";
-  const ends = scale.whole
-    ? ["≤ 4", "5", "6", "7", "≥ 8"]
-    : [0, 0.5, 1].map((s) => figure(scale.range[0] + s * (scale.range[1] - scale.range[0])) + unit);
-  const all = scale.whole ? "" : `all: ${figure(scale.extent[0])} to ${figure(scale.extent[1])}${unit}`;
   legend.replaceChildren(
-    el("b", {}, [scale.label]),
-    el("div", { class: "bar", style: `background:${gradient(scale.whole)}` }),
+    el("b", {}, [scale.title]),
+    el("div", { class: "bar", style: `background:${bands(scale)}` }),
     el(
       "div",
       { class: "ends" },
-      ends.map((e) => el("span", {}, [e])),
+      scale.labels.map((label) => el("span", {}, [label.text])),
     ),
-    all && el("small", {}, [all]),
-    el("div", { class: "odd" }, [
-      el("i", { class: "black" }),
-      "too few members",
-      el("i", { class: "white" }),
-      "too many",
-    ]),
+    scale.note && el("small", {}, [scale.note]),
+    scale.all_nodes
+      ? ""
+      : el("div", { class: "odd" }, [
+          el("i", { class: "black" }),
+          "too few members",
+          el("i", { class: "white" }),
+          "too many",
+        ]),
   );
   legend.hidden = false;
 }
