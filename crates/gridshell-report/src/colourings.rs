@@ -9,7 +9,7 @@ use gridshell::design::Design;
 use gridshell::grid::Grid;
 use gridshell::math::trig;
 use gridshell::merit;
-use gridshell::recipe::Recipe;
+use gridshell::schedule::groups_within;
 use gridshell::surface::{Locator, Surface};
 
 /// A way to colour grids.
@@ -62,10 +62,12 @@ enum Rule {
     ToOne { most: f64 },
     /// A colour of its own for this whole number and those that follow it; the last ones stand for what lies beyond.
     Counts { first: i32 },
+    /// A colour for each group from 0; they come again where there are more groups than colours.
+    Groups,
 }
 
 /// All of them, in the order in which people are offered them.
-pub static ALL: [Colouring; 6] = [
+pub static ALL: [Colouring; 7] = [
     Colouring {
         key: "length",
         label: "Member length",
@@ -126,6 +128,16 @@ pub static ALL: [Colouring; 6] = [
         rule: Rule::FromZero { least: LEAST_DEVIATION },
         values: deviations,
     },
+    Colouring {
+        key: "group",
+        label: "Member group",
+        unit: "",
+        help: "Members by group: those of one group are made alike; neighbouring lengths have unlike colours.",
+        on: Element::Members,
+        ramp: &GROUPS,
+        rule: Rule::Groups,
+        values: groups,
+    },
 ];
 
 /// Steps of scales of measured values: few enough to be told apart in a legend, and an odd number, so that there is a
@@ -161,6 +173,21 @@ const DEGREES: [Rgb; 5] = [
     [0.96, 0.60, 0.15],
     [0.72, 0.08, 0.12],
 ];
+/// Of groups, so that any two near each other in the list are told apart.
+const GROUPS: [Rgb; 12] = [
+    [0.12, 0.47, 0.71],
+    [1.00, 0.50, 0.05],
+    [0.17, 0.63, 0.17],
+    [0.84, 0.15, 0.16],
+    [0.58, 0.40, 0.74],
+    [0.80, 0.74, 0.10],
+    [0.09, 0.75, 0.81],
+    [0.89, 0.47, 0.76],
+    [0.55, 0.34, 0.29],
+    [0.60, 0.87, 0.54],
+    [0.10, 0.20, 0.45],
+    [0.98, 0.75, 0.50],
+];
 
 /// The colouring of this key.
 pub fn of(key: &str) -> Option<&'static Colouring> {
@@ -179,8 +206,8 @@ pub struct Subject<'a> {
     pub panels: Vec<[u32; 3]>,
     /// The length that was wanted, metres.
     pub edge_length: f64,
-    /// What it was made by.
-    pub recipe: &'a Recipe,
+    /// Members of a group differ in length by at most this, metres.
+    pub length_tolerance: f64,
 }
 
 impl<'a> Subject<'a> {
@@ -192,7 +219,7 @@ impl<'a> Subject<'a> {
             members: design.schedule.members.ends.clone(),
             panels: design.schedule.panels.nodes.clone(),
             edge_length: design.edge_length,
-            recipe: &design.recipe,
+            length_tolerance: design.schedule.figures.length_tolerance,
         }
     }
 
@@ -204,7 +231,7 @@ impl<'a> Subject<'a> {
             members: grid.mesh.edges().map(|(a, b)| [a, b]).collect(),
             panels: grid.mesh.triangles().collect(),
             edge_length: design.edge_length,
-            recipe: &design.recipe,
+            length_tolerance: design.schedule.figures.length_tolerance,
         }
     }
 
@@ -260,6 +287,11 @@ fn deviations(s: &Subject) -> Vec<f64> {
     s.panels.iter().map(off).collect()
 }
 
+/// Numbers as in the schedules: 0 is the group of the shortest.
+fn groups(s: &Subject) -> Vec<f64> {
+    groups_within(&s.lengths(), s.length_tolerance).into_iter().map(f64::from).collect()
+}
+
 impl Colouring {
     /// The value of each element that is coloured; NaN where it has none.
     pub fn values(&self, subject: &Subject) -> Vec<f64> {
@@ -297,6 +329,14 @@ impl Colouring {
                     };
                     let place = move |x: f64| (x - f64::from(first)).clamp(0.0, last as f64) as u8;
                     (Box::new(place), self.ramp.to_vec(), (0..=last).map(label).collect())
+                }
+                Rule::Groups => {
+                    let count = known.iter().copied().fold(0.0, f64::max) as usize + 1;
+                    let inks = &self.ramp[..count.min(self.ramp.len())];
+                    let labels = (0..inks.len()).map(|k| (in_middle(k, inks.len()), k.to_string()));
+                    let colours = inks.len();
+                    let place = move |x: f64| (x as usize % colours) as u8;
+                    (Box::new(place), inks.to_vec(), labels.collect())
                 }
             };
         let steps: Vec<Option<u8>> =
@@ -344,6 +384,11 @@ impl Colouring {
         match self.rule {
             Rule::Counts { .. } => String::new(),
             _ if known.is_empty() => "no values".to_owned(),
+            Rule::Groups if most < self.ramp.len() as f64 => "group 0: the shortest".to_owned(),
+            Rule::Groups => {
+                let (last, colours) = (most, self.ramp.len());
+                format!("0 (the shortest) to {last}: group {colours} has the colour of 0 again")
+            }
             _ => {
                 let digits = decimals((most - least) / 2.0);
                 format!("all: {least:.digits$} to {most:.digits$}")
@@ -463,7 +508,7 @@ mod tests {
             members: grid.mesh.edges().map(|(a, b)| [a, b]).collect(),
             panels: grid.mesh.triangles().collect(),
             edge_length: 1.0,
-            recipe: &Recipe::default(),
+            length_tolerance: 0.005,
         })
     }
 
@@ -508,6 +553,38 @@ mod tests {
                 assert!((0..3).all(|c| (ink[c] - wanted[c]).abs() < 1e-12), "{length}: {ink:?}");
             }
             assert_eq!(colours.of(Element::Panels, 0), None);
+        });
+    }
+
+    #[test]
+    fn sides_are_one_group_and_diagonals_another_and_a_thirteenth_group_has_the_first_colour() {
+        let group = of("group").unwrap();
+        with_square(|square| {
+            let colours = group.colours(square);
+            for (step, length) in colours.steps.iter().zip(square.lengths()) {
+                assert_eq!(*step, Some(u8::from(length > 1.1)), "{length}");
+            }
+            assert_eq!(colours.scale.counts, [12, 4]);
+            // Without any tolerance and with every member of another length.
+            let mut grid = square.grid.clone();
+            for (k, p) in grid.xyz.iter_mut().enumerate() {
+                *p *= 1.0 + 0.1 * (k * k) as f64;
+            }
+            let (members, panels) = (square.members.clone(), square.panels.clone());
+            let (surface, edge_length) = (square.surface, square.edge_length);
+            let uneven = Subject {
+                grid: &grid,
+                surface,
+                members,
+                panels,
+                edge_length,
+                length_tolerance: 0.0,
+            };
+            let (values, colours) = (group.values(&uneven), group.colours(&uneven));
+            assert!(values.contains(&12.0), "{values:?}");
+            for (value, step) in values.iter().zip(&colours.steps) {
+                assert_eq!(step.map(f64::from), Some(value % 12.0));
+            }
         });
     }
 
