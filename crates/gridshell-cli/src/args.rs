@@ -1,10 +1,12 @@
 //! The arguments.
 
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use gridshell::design;
 use gridshell::io::{Choice, Follow, LengthUnit, Opening};
 use gridshell::job;
-use gridshell_report::picture::{Coloring, Labels, Paper, Sheet};
+use gridshell_report::colourings;
+use gridshell_report::picture::{Labels, Paper, Sheet};
 use std::path::PathBuf;
 
 /// Triangular grids for free-form gridshells.
@@ -302,14 +304,22 @@ pub struct Draw {
     #[arg(long, value_enum, default_value = "plan")]
     pub view: Sheet,
     /// What the colours show.
-    #[arg(long, value_enum, default_value = "length")]
-    pub color: Coloring,
+    #[arg(long, value_parser = colourings(), default_value = "length")]
+    pub color: String,
     /// Whose numbers are written beside them, as in the schedules; separated by commas.
     #[arg(long, value_enum, value_delimiter = ',')]
     pub labels: Vec<Labels>,
     /// The paper, in landscape; `none` makes a small picture.
     #[arg(long, value_enum, default_value = "a1")]
     pub paper: Paper,
+}
+
+/// The keys of the table of colourings, and none.
+fn colourings() -> PossibleValuesParser {
+    let all = colourings::ALL
+        .iter()
+        .map(|c| PossibleValue::new(c.key).help(c.help.trim_end_matches('.')));
+    all.chain([PossibleValue::new("none").help("No colours")]).collect::<Vec<_>>().into()
 }
 
 #[derive(ClapArgs)]

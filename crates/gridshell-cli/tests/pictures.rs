@@ -1,5 +1,6 @@
 //! Sheets, reports and comparisons as their users get them.
 
+use gridshell_report::colourings;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -51,7 +52,7 @@ fn every_view_and_every_colour_gives_a_sheet_in_every_format() {
         assert!(pixels <= 760.0 && !svg.contains("luency"), "{view}: no sheet");
     }
     assert_eq!(text(&folder, "plan.svg"), text(&folder, "top.svg"));
-    for colour in ["length", "degree", "disfluency", "shape", "none"] {
+    for colour in colourings::ALL.iter().map(|c| c.key).chain(["none"]) {
         let args = format!("draw dome.gridshell --color {colour} --paper a4 -o c.png -o c.pdf");
         done(folder.path(), &args);
         let png = fs::read(folder.path().join("c.png")).expect("written");

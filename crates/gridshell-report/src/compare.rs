@@ -1,8 +1,8 @@
 //! Grids side by side: their figures in columns, the best of each marked.
 
+use crate::colourings::{self, Colours};
 use crate::measures::{self, Known, Measure};
 use crate::page::{self, Colored};
-use crate::picture::colour::{Coloring, Colours};
 use crate::picture::svg::escaped;
 use gridshell::design::Design;
 use std::fmt::Write;
@@ -64,9 +64,9 @@ pub fn page(grids: &[(String, Design)]) -> String {
     }
     body += "</tr><tr><td></td>";
     let mut style = String::new();
+    let length = colourings::of("length").expect("in the table");
     for (k, (_, design)) in grids.iter().enumerate() {
-        let colours = Colours::new(Coloring::Length, design);
-        let colored = [Colored { key: "length", colours }];
+        let colored = [Colored { colouring: length, colours: Colours::new(length, design) }];
         // The steps have the same colours in every grid: one style does for all.
         if k == 0 {
             style = page::style(&colored);

@@ -52,7 +52,7 @@ pub struct Now {
     /// The edits of this session as they stand in logs; None before the first.
     log: Option<Log>,
     /// What it lies on: edits of guides change that.
-    surface: Arc<Surface>,
+    pub surface: Arc<Surface>,
     /// An editor of its own, to weigh edits on.
     trial: OnceLock<Arc<Editor>>,
 }

@@ -3,13 +3,14 @@
 use crate::color;
 use crate::laid::{Laid, Now};
 use crate::message::{CandidateRow, Histogram, Measure, RunInfo, RunSummary, StageRow};
-use gridshell::grid::Grid;
 use gridshell::stages::measure::Quality;
-use gridshell::surface::Surface;
+use gridshell_report::colourings;
 use gridshell_report::measures::{self, Known};
 
 /// Bins of a histogram.
 const BINS: usize = 24;
+/// The colourings whose values have one.
+const HISTOGRAMS: [&str; 4] = ["length", "shape", "disfluency", "fold"];
 
 /// All about a grid that is kept, as it is now.
 pub fn told(summary: RunSummary, laid: &Laid, now: &Now) -> RunInfo {
@@ -19,7 +20,7 @@ pub fn told(summary: RunSummary, laid: &Laid, now: &Now) -> RunInfo {
         edge_length: laid.design.edge_length,
         stopped: run.is_some_and(|r| r.stopped),
         measures: measures(&now.quality, laid.design.edge_length),
-        histograms: histograms(&now.grid, &laid.opened.sketch),
+        histograms: histograms(laid, now),
         stages: run.iter().flat_map(|r| &r.stages).map(stage).collect(),
         candidates: run.iter().flat_map(|r| &r.candidates).map(candidate).collect(),
         warnings: laid.notes(),
@@ -44,16 +45,10 @@ fn measures(quality: &Quality, edge_length: f64) -> Vec<Measure> {
     measures::ALL.iter().filter_map(row).collect()
 }
 
-fn histograms(grid: &Grid, surface: &Surface) -> Vec<Histogram> {
-    let ways = [
-        ("length", "Member length", "m"),
-        ("shape", "Panel shape q", ""),
-        ("disfluency", "Disfluency", "°"),
-        ("fold", "Fold", "°"),
-    ];
-    ways.iter()
-        .map(|&(by, title, unit)| histogram(title, unit, &color::values(grid, surface, by)))
-        .collect()
+fn histograms(laid: &Laid, now: &Now) -> Vec<Histogram> {
+    let subject = color::subject(laid, now);
+    let colourings = HISTOGRAMS.iter().filter_map(|key| colourings::of(key));
+    colourings.map(|c| histogram(c.label, c.unit, &c.values(&subject))).collect()
 }
 
 fn histogram(title: &str, unit: &str, values: &[f64]) -> Histogram {
@@ -104,6 +99,8 @@ fn candidate(c: &gridshell::run::CandidateReport) -> CandidateRow {
 pub mod tests {
     use super::*;
     use glam::DVec3;
+    use gridshell::grid::Grid;
+    use gridshell::surface::Surface;
 
     /// Two by two unit squares in the plane, each cut by a diagonal, as a grid that is its own surface.
     pub fn square() -> (Grid, Surface) {

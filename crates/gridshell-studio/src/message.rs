@@ -47,7 +47,7 @@ pub enum Request {
         /// The stage whose grid is wanted; the last one's without it.
         stage: Option<String>,
     },
-    /// Send the values that a grid is colored by.
+    /// Send the colors of a grid.
     Color {
         /// Which run.
         run: u32,
@@ -366,8 +366,6 @@ pub struct Coloring {
     pub name: String,
     /// For people.
     pub label: String,
-    /// Unit, or empty.
-    pub unit: String,
     /// One line of help.
     pub help: String,
 }
@@ -675,7 +673,7 @@ pub enum Shows {
     /// `members0` (x, y of both ends), `few0` and `many0` (x, y of irregular nodes) of the first candidate, seen from
     /// above, from 0 to 1; `members1` ... of the next.
     Candidates,
-    /// `values`.
+    /// `steps`: the number of each element's color in the scale, 2^32 - 1 without one.
     Colors,
 }
 
@@ -697,18 +695,28 @@ pub struct ArrayHead {
 pub struct Scale {
     /// The coloring's name.
     pub by: String,
-    /// For people.
-    pub label: String,
-    /// Unit, or empty.
-    pub unit: String,
-    /// What has values: `members`, `panels` or `nodes`.
+    /// What is shown, with its unit.
+    pub title: String,
+    /// What has colors: `members`, `panels` or `nodes`.
     pub on: String,
-    /// Values at the scale's ends.
-    pub range: [f64; 2],
-    /// Least and largest value there is.
-    pub extent: [f64; 2],
-    /// Whether values are counts.
-    pub whole: bool,
+    /// The colors of the steps, `#rrggbb`.
+    pub inks: Vec<String>,
+    /// What stands where on the scale.
+    pub labels: Vec<Label>,
+    /// What else to know, or empty.
+    pub note: String,
+    /// Whether every node has a color.
+    pub all_nodes: bool,
+}
+
+/// A label of a scale.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Label {
+    /// Where, from 0 to 1.
+    pub at: f64,
+    /// What is there.
+    pub text: String,
 }
 
 #[cfg(test)]
@@ -747,6 +755,7 @@ mod tests {
             Shows::decl(&config),
             ArrayHead::decl(&config),
             Scale::decl(&config),
+            Label::decl(&config),
         ];
         let types: Vec<String> = types.iter().map(|t| format!("export {t}\n")).collect();
         head.to_owned() + &types.join("")

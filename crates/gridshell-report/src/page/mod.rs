@@ -7,7 +7,7 @@ mod pictures;
 mod tables;
 mod viewer;
 
-use crate::picture::colour::{Coloring, Colours};
+use crate::colourings::{self, Colours};
 use crate::picture::svg::escaped;
 use crate::picture::view::View;
 use gridshell::design::Design;
@@ -18,15 +18,6 @@ use std::path::Path;
 pub(crate) use pictures::{Colored, plan, style};
 
 const STYLE: &str = include_str!("page.css");
-
-/// The colourings that the page can show, by the names that its script and its style know them by.
-pub(crate) const COLORINGS: [(&str, &str, Coloring); 5] = [
-    ("length", "length", Coloring::Length),
-    ("disfluency", "angle disfluency", Coloring::Disfluency),
-    ("degree", "degree of nodes", Coloring::Degree),
-    ("shape", "shape of panels", Coloring::Shape),
-    ("none", "none", Coloring::None),
-];
 
 /// Refuse a file that is not a page, or cannot be written, before the work is done.
 ///
@@ -50,9 +41,9 @@ pub fn write(file: &Path, page: &str) -> Result<()> {
 /// The page of a grid, and of the run that made it if there is one: that tells of the grid before edits.
 pub fn of(design: &Design) -> String {
     let run = design.run.as_deref();
-    let colored: Vec<Colored> = COLORINGS
+    let colored: Vec<Colored> = colourings::ALL
         .iter()
-        .map(|&(key, _, coloring)| Colored { key, colours: Colours::new(coloring, design) })
+        .map(|colouring| Colored { colouring, colours: Colours::new(colouring, design) })
         .collect();
     let mut body = header(design, run);
     body += &warnings(run);

@@ -1,14 +1,15 @@
 //! Small inline pictures of a grid whose colours the page can switch: elements have a class for each colouring.
 
-use crate::picture::colour::{Colours, Scale};
-use crate::picture::drawing::Rgb;
+use crate::colourings::{ALL, Colouring, Colours, Element};
 use crate::picture::frame::{Extent, Frame};
 use crate::picture::scene::{self, Item, PANEL};
+use crate::picture::sheet::COLOURED_NODES;
 use crate::picture::svg::hex;
 use crate::picture::view::View;
 use crate::picture::{legend_of, lit};
 use gridshell::degree::REGULAR;
 use gridshell::design::Design;
+use std::cmp::Ordering;
 use std::fmt::Write;
 
 /// Greater side of a picture in its own units: fine enough for whole numbers.
@@ -20,9 +21,9 @@ const LIGHTS: usize = 12;
 /// The least light there is.
 const DARKEST: f64 = 0.5;
 
-/// The colours of a grid, and their name on the page.
+/// The colours of a grid, and what they show.
 pub struct Colored {
-    pub key: &'static str,
+    pub colouring: &'static Colouring,
     pub colours: Colours,
 }
 
@@ -58,29 +59,32 @@ pub fn picture(design: &Design, colored: &[Colored], view: View) -> String {
                         lit([1.0; 3], schedule.panels.normal[k], points[t[0] as usize], &camera)[0],
                     ),
                 };
-                let classes = classes(colored, |c| c.panels[k]);
+                let classes = classes(colored, Element::Panels, k);
                 let _ = write!(out, "<path class=\"p h{light}{classes}\" d=\"M{} {}", a[0], a[1]);
                 let _ = write!(out, "L{} {}L{} {}Z\"/>", b[0], b[1], c[0], c[1]);
             }
             Item::Member(k) => {
                 let [a, b] = schedule.members.ends[k].map(|v| places[v as usize]);
-                let classes = classes(colored, |c| c.members[k]);
+                let classes = classes(colored, Element::Members, k);
                 let wide = schedule.members.boundary[k] || schedule.members.feature[k];
                 let wide = if wide { " w" } else { "" };
                 let _ = write!(out, "<path class=\"m{wide}{classes}\" d=\"M{} {}", a[0], a[1]);
                 let _ = write!(out, "L{} {}\"/>", b[0], b[1]);
             }
-            Item::Node(v) if schedule.nodes.is_irregular(v) => {
-                let few = schedule.nodes.adjusted_degree[v] < REGULAR;
-                let kind = if few { "few" } else { "many" };
-                let classes = classes(colored, |c| c.nodes[v]);
+            Item::Node(v) => {
+                let classes = classes(colored, Element::Nodes, v);
+                let kind = match schedule.nodes.adjusted_degree[v].cmp(&REGULAR) {
+                    Ordering::Less => "few",
+                    Ordering::Greater => "many",
+                    Ordering::Equal if classes.is_empty() => continue,
+                    Ordering::Equal => "reg",
+                };
                 let [x, y] = places[v];
                 let _ = write!(
                     out,
                     "<circle class=\"n {kind}{classes}\" cx=\"{x}\" cy=\"{y}\" r=\"{radius:.0}\"/>"
                 );
             }
-            Item::Node(_) => {}
         }
     }
     out + "</svg>"
@@ -91,20 +95,21 @@ pub fn plan(design: &Design, colored: &[Colored]) -> String {
     picture(design, colored, View::Plan)
 }
 
-/// ` length4`: the step in each colouring that colours the element.
-fn classes(colored: &[Colored], step: impl Fn(&Colours) -> Option<u8>) -> String {
+/// ` A4 D0`: the step in each colouring that colours the element.
+fn classes(colored: &[Colored], element: Element, k: usize) -> String {
     let mut text = String::new();
     for c in colored {
-        if let Some(step) = step(&c.colours) {
-            let _ = write!(text, " {}{step}", initial(c.key));
+        if let Some(step) = c.colours.step(element, k) {
+            let _ = write!(text, " {}{step}", initial(c.colouring));
         }
     }
     text
 }
 
-/// Short names keep the page small.
-fn initial(key: &str) -> &str {
-    &key[..2]
+/// A capital for each colouring: short names keep the page small.
+fn initial(colouring: &Colouring) -> char {
+    let place = ALL.iter().position(|c| c.key == colouring.key).expect("in the table");
+    char::from(b'A' + place as u8)
 }
 
 fn light(brightness: f64) -> usize {
@@ -119,35 +124,33 @@ pub fn style(colored: &[Colored]) -> String {
         let brightness = DARKEST + (1.0 - DARKEST) * k as f64 / (LIGHTS - 1) as f64;
         let _ = writeln!(css, ".h{k}{{fill:{0};stroke:{0}}}", hex(&PANEL.map(|x| x * brightness)));
     }
-    for Colored { key, colours } in colored {
-        let Some(Scale { steps, .. }) = &colours.scale else { continue };
-        for (k, rgb) in steps.iter().enumerate() {
-            let (colour, short): (String, &str) = (hex(rgb), initial(key));
-            let on = format!("[data-colour={key}]");
-            let _ = writeln!(css, "{on} .m.{short}{k}{{stroke:{colour}}}");
-            let _ = writeln!(css, "{on} .p.{short}{k}{{fill:{colour};stroke:{colour}}}");
-            let _ = writeln!(css, "{on} .n.{short}{k}{{fill:{colour}}}");
+    for Colored { colouring, colours } in colored {
+        let (on, short) = (format!("[data-colour={}]", colouring.key), initial(colouring));
+        for (k, colour) in colours.scale.hexes().iter().enumerate() {
+            let class = format!("{short}{k}");
+            let _ = match colouring.on {
+                Element::Members => writeln!(css, "{on} .m.{class}{{stroke:{colour}}}"),
+                Element::Panels => {
+                    writeln!(css, "{on} .p.{class}{{fill:{colour};stroke:{colour}}}")
+                }
+                Element::Nodes => writeln!(
+                    css,
+                    "{on} .n.{class}{{display:inline;fill:{colour}}}{on} .reg.{class}{{stroke:{colour}}}"
+                ),
+            };
         }
-        let _ = writeln!(
-            css,
-            "{on} .legend.{key}{{display:block}}",
-            on = format_args!("[data-colour={key}]")
-        );
+        if colours.on_nodes() {
+            let _ = writeln!(css, "{on} .n{{r:calc({COLOURED_NODES} * var(--r))}}");
+        }
+        let _ = writeln!(css, "{on} .legend.{}{{display:block}}", colouring.key);
     }
     css
 }
 
 /// The legends; the style shows the one that is asked for.
 pub fn legends(colored: &[Colored]) -> String {
-    let one = |c: &Colored| {
-        let scale = c.colours.scale.as_ref()?;
-        Some(format!("<div class=\"legend {}\">{}</div>", c.key, legend_of(scale)))
+    let one = |Colored { colouring, colours }: &Colored| {
+        format!("<div class=\"legend {}\">{}</div>", colouring.key, legend_of(&colours.scale))
     };
-    colored.iter().filter_map(one).collect()
-}
-
-/// Steps as colours for scripts.
-pub fn inks(colours: &Colours) -> Vec<String> {
-    let steps: &[Rgb] = colours.scale.as_ref().map_or(&[], |s| &s.steps);
-    steps.iter().map(hex).collect()
+    colored.iter().map(one).collect()
 }

@@ -12,12 +12,13 @@
   const excess = new Int8Array(bytes(data.excess).buffer);
   const colourings = {};
   for (const [key, c] of Object.entries(data.colourings)) {
-    colourings[key] = {
-      inks: c.inks,
-      members: bytes(c.members),
-      panels: bytes(c.panels),
-      nodes: bytes(c.nodes),
-    };
+    colourings[key] = { inks: c.inks, on: c.on, steps: bytes(c.steps) };
+  }
+  const NO_STEP = 255;
+  // The ink of an element; undefined without.
+  function ink(colours, on, k) {
+    if (!colours || colours.on !== on || colours.steps[k] === NO_STEP) return undefined;
+    return colours.inks[colours.steps[k]];
   }
 
   const PLAIN = "#6b7075";
@@ -97,7 +98,7 @@
     eye.up = -eye.zoom * ((low[1] + high[1]) / 2 - height / 2);
   }
 
-  function sorted(drawPanels) {
+  function sorted(drawPanels, colours) {
     const before = 0.35 * data.member_length;
     const all = [];
     for (let k = 0; k < panelCount && drawPanels; k++) {
@@ -112,7 +113,7 @@
       all.push(i);
     }
     for (let v = 0; v < nodeCount; v++) {
-      if (excess[v] === 0) continue;
+      if (excess[v] === 0 && !ink(colours, "nodes", v)) continue;
       const i = panelCount + memberCount + v;
       depth[i] = seen[3 * v + 2] - 2 * before;
       all.push(i);
@@ -134,10 +135,10 @@
     if (!eye) fit(width, height);
     const { scale, towards } = look(width, height);
     const many = panelCount + memberCount > MANY;
-    sorted(showPanels && !(dragging && many));
     const colours = colourings[document.body.dataset.colour];
+    sorted(showPanels && !(dragging && many), colours);
     const thin = Math.min(3, Math.max(0.7, 0.055 * data.member_length * scale));
-    const large = document.body.dataset.colour === "degree" ? 1.6 : 1;
+    const large = colours?.on === "nodes" ? 1.6 : 1;
     const dot = large * Math.min(7, Math.max(1.5, 0.13 * data.member_length * scale));
     for (const i of order) {
       if (i < panelCount) panel(i, colours, towards);
@@ -152,9 +153,8 @@
     // The light of the pictures: from the left, the front and above.
     const lit = Math.abs(-0.358 * normals[n] - 0.268 * normals[n + 1] + 0.894 * normals[n + 2]);
     const bright = 1 - 0.35 * (1 - lit) - (facing < 0 ? 0.12 : 0);
-    const step = colours.panels[k];
-    let rgb = PANEL;
-    if (step !== 255) rgb = [1, 3, 5].map((j) => parseInt(colours.inks[step].slice(j, j + 2), 16));
+    const own = ink(colours, "panels", k);
+    const rgb = own ? [1, 3, 5].map((j) => parseInt(own.slice(j, j + 2), 16)) : PANEL;
     const fill = `rgb(${rgb.map((x) => Math.round(x * bright)).join(",")})`;
     pen.beginPath();
     for (let j = 0; j < 3; j++) {
@@ -172,8 +172,7 @@
 
   function member(k, colours, thin) {
     const [a, b] = [3 * members[2 * k], 3 * members[2 * k + 1]];
-    const step = colours.members[k];
-    pen.strokeStyle = step === 255 ? PLAIN : colours.inks[step];
+    pen.strokeStyle = ink(colours, "members", k) ?? PLAIN;
     pen.lineWidth = wide[k] ? 1.8 * thin : thin;
     pen.beginPath();
     pen.moveTo(seen[a], seen[a + 1]);
@@ -182,9 +181,8 @@
   }
 
   function node(v, colours, dot) {
-    const step = colours.nodes[v];
-    pen.fillStyle = step === 255 ? (excess[v] < 0 ? INK : "#fff") : colours.inks[step];
-    pen.strokeStyle = INK;
+    pen.fillStyle = ink(colours, "nodes", v) ?? (excess[v] < 0 ? INK : "#fff");
+    pen.strokeStyle = excess[v] === 0 ? pen.fillStyle : INK;
     pen.lineWidth = 0.25 * dot;
     pen.beginPath();
     pen.arc(seen[3 * v], seen[3 * v + 1], dot, 0, 2 * Math.PI);

@@ -1,8 +1,6 @@
 //! The view that can be turned: a canvas, the grid as packed numbers, and a script of our own.
 
-use super::COLORINGS;
-use super::pictures::{Colored, inks, legends};
-use crate::picture::colour::Colours;
+use super::pictures::{Colored, legends};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use gridshell::design::Design;
@@ -32,19 +30,21 @@ struct Data {
 #[derive(Serialize)]
 struct Steps {
     inks: Vec<String>,
-    members: String,
-    panels: String,
-    nodes: String,
+    /// `members`, `nodes` or `panels`.
+    on: &'static str,
+    /// The step of each, [`PLAIN`] without.
+    steps: String,
 }
 
 /// Choice of colours, canvas, legend.
 pub fn section(design: &Design, colored: &[Colored]) -> String {
-    let choice: Vec<String> = COLORINGS
-        .iter()
-        .map(|(key, name, _)| {
-            let on = if *key == "length" { " checked" } else { "" };
+    let all = colored.iter().map(|c| (c.colouring.key, c.colouring.label, c.colouring.help));
+    let choice: Vec<String> = all
+        .chain([("none", "None", "No colours.")])
+        .map(|(key, label, help)| {
+            let on = if key == "length" { " checked" } else { "" };
             format!(
-                "<label><input type=\"radio\" name=\"colour\" value=\"{key}\"{on}> {name}</label>"
+                "<label title=\"{help}\"><input type=\"radio\" name=\"colour\" value=\"{key}\"{on}> {label}</label>"
             )
         })
         .collect();
@@ -82,17 +82,15 @@ fn data(design: &Design, colored: &[Colored]) -> Data {
         wide: packed(wide),
         excess: packed(excess),
         member_length: schedule.figures.length.spread.mean,
-        colourings: colored.iter().map(|c| (c.key, steps(&c.colours))).collect(),
+        colourings: colored.iter().map(|c| (c.colouring.key, steps(c))).collect(),
     }
 }
 
-fn steps(colours: &Colours) -> Steps {
-    let pack = |steps: &[Option<u8>]| packed(steps.iter().map(|s| s.unwrap_or(PLAIN)));
+fn steps(Colored { colouring, colours }: &Colored) -> Steps {
     Steps {
-        inks: inks(colours),
-        members: pack(&colours.members),
-        panels: pack(&colours.panels),
-        nodes: pack(&colours.nodes),
+        inks: colours.scale.hexes(),
+        on: colouring.on.name(),
+        steps: packed(colours.steps.iter().map(|s| s.unwrap_or(PLAIN))),
     }
 }
 

@@ -1,13 +1,13 @@
 //! Numbers of nodes, members and panels, as schedules have them: on the nodes, along the members and in the middle of the
 //! panels, so large that neighbours do not touch. What is hidden or seen almost edge on gets none.
 
-use super::colour::Colours;
 use super::drawing::{Anchor, Drawing, Mark, Rgb, Text};
 use super::frame::Frame;
 use super::glyphs;
 use super::hidden::Cover;
 use super::scene::{INK, PAPER};
 use super::view::Camera;
+use crate::colourings::{Colours, Element};
 use gridshell::degree::REGULAR;
 use gridshell::design::Design;
 use gridshell::math::trig;
@@ -59,7 +59,7 @@ struct Writing<'a> {
 pub fn draw(
     design: &Design,
     labels: &[Labels],
-    colours: &Colours,
+    colours: Option<&Colours>,
     camera: &Camera,
     frame: &Frame,
     largest: f64,
@@ -91,7 +91,8 @@ pub fn draw(
     if labels.contains(&Labels::Nodes) {
         let shortest = writing.shortest();
         for v in (0..seen.len()).filter(|&v| !cover.hides(seen[v])) {
-            writing.node(v, shortest[v], colours, drawing);
+            let colour = colours.and_then(|c| c.of(Element::Nodes, v));
+            writing.node(v, shortest[v], colour, drawing);
         }
     }
 }
@@ -183,8 +184,9 @@ impl<'a> Writing<'a> {
         write(drawing, at, words, size, OF_MEMBERS, turn.to_degrees());
     }
 
-    /// The label of a node takes the place of its mark: white on black for too few members, ringed for too many.
-    fn node(&self, v: usize, shortest: f64, colours: &Colours, drawing: &mut Drawing) {
+    /// The label of a node takes the place of its mark: white on black for too few members, ringed for too many,
+    /// or its colour.
+    fn node(&self, v: usize, shortest: f64, colour: Option<Rgb>, drawing: &mut Drawing) {
         let size = self.along(shortest);
         if !self.is_large_enough(size) {
             return;
@@ -192,7 +194,7 @@ impl<'a> Writing<'a> {
         let nodes = &self.design.schedule.nodes;
         let few = nodes.adjusted_degree[v] < REGULAR;
         let plain = if few { INK } else { PAPER };
-        let fill = colours.of(colours.nodes[v]).filter(|_| nodes.is_irregular(v)).unwrap_or(plain);
+        let fill = colour.unwrap_or(plain);
         let ink = if fill.iter().sum::<f64>() < 1.3 { PAPER } else { INK };
         let (at, words) = (self.places[v], format!("N{v}"));
         let half = [0.5 * glyphs::length(&words, size), 0.5 * HEIGHT * size];

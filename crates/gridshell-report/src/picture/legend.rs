@@ -1,9 +1,9 @@
 //! What the colours and the marks of a sheet mean, its scale bar and its axes.
 
-use super::colour::{Coloring, Scale};
 use super::drawing::{Anchor, Drawing};
 use super::frame::round_length;
 use super::scene::{INK, MEMBER, PAPER, support};
+use crate::colourings::{Colours, Scale};
 use gridshell::design::Design;
 
 /// Height of the histogram and of the strip of colours, over the size of type.
@@ -30,13 +30,13 @@ pub fn colours(
     width: f64,
     size: f64,
 ) -> f64 {
-    let long = super::glyphs::length(scale.title, 1.15 * size);
+    let long = super::glyphs::length(&scale.title, 1.15 * size);
     let fit = 1.15 * size * (width / long).min(1.0);
-    drawing.text([x, top], scale.title, fit, INK, Anchor::Start);
+    drawing.text([x, top], &scale.title, fit, INK, Anchor::Start);
     let ground = top + (2.8 + BARS) * size;
-    let step = width / scale.steps.len() as f64;
+    let step = width / scale.inks.len() as f64;
     let most = scale.counts.iter().copied().max().unwrap_or(0).max(1) as f64;
-    for (k, (rgb, &count)) in scale.steps.iter().zip(&scale.counts).enumerate() {
+    for (k, (rgb, &count)) in scale.inks.iter().zip(&scale.counts).enumerate() {
         let left = x + k as f64 * step;
         let high = BARS * size * count as f64 / most;
         drawing.rectangle([left + 0.06 * step, ground - high], [0.88 * step, high], *rgb);
@@ -46,7 +46,12 @@ pub fn colours(
             drawing.text(at, &count.to_string(), small, INK, Anchor::Middle);
         }
     }
-    strip(drawing, scale, [x, ground + 0.4 * size], width, size)
+    let end = strip(drawing, scale, [x, ground + 0.4 * size], width, size);
+    if scale.note.is_empty() {
+        return end;
+    }
+    drawing.text([x, end + 0.4 * size], &scale.note, 0.9 * size, INK, Anchor::Start);
+    end + 1.4 * size
 }
 
 /// The colours of a scale in a row, and below it what they stand for; gives where it ends.
@@ -57,8 +62,8 @@ pub fn strip(
     width: f64,
     size: f64,
 ) -> f64 {
-    let step = width / scale.steps.len() as f64;
-    for (k, rgb) in scale.steps.iter().enumerate() {
+    let step = width / scale.inks.len() as f64;
+    for (k, rgb) in scale.inks.iter().enumerate() {
         drawing.rectangle([x + k as f64 * step, top], [step, STRIP * size], *rgb);
     }
     let y = top + (STRIP + 1.0) * size;
@@ -77,14 +82,14 @@ pub fn strip(
 pub fn marks(
     drawing: &mut Drawing,
     design: &Design,
-    coloring: Coloring,
+    colours: Option<&Colours>,
     [x, mut y]: [f64; 2],
     size: f64,
     line: f64,
 ) -> f64 {
     let text = x + 3.0 * size;
     let middle = x + size;
-    if coloring != Coloring::Degree {
+    if !colours.is_some_and(Colours::all_nodes) {
         drawing.disc([middle, y], 0.45 * size, INK, INK);
         drawing.text([text, y], "node with too few members", size, INK, Anchor::Start);
         y += line;

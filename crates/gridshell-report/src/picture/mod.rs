@@ -1,10 +1,9 @@
 //! Pictures: models in plan and perspective, grids on sheets to scale. Drawn the same on every machine; as SVG, PNG or
 //! PDF.
 //!
-//! `view` and `frame` say where things are seen, `colour` what colours mean, `scene` what lies before what; `sheet` and
+//! `view` and `frame` say where things are seen, `scene` what lies before what; `sheet` and
 //! `model` put it on paper as a `drawing`, which `svg`, `png` and `pdf` write.
 
-pub(crate) mod colour;
 pub(crate) mod drawing;
 pub(crate) mod frame;
 mod glyphs;
@@ -22,11 +21,11 @@ mod small;
 pub(crate) mod svg;
 pub(crate) mod view;
 
-pub use colour::Coloring;
 pub use label::Labels;
 pub(crate) use light::lit;
 pub use sheet::{Paper, Sheet, Wish};
 
+use crate::colourings::Scale;
 use drawing::{Drawing, Unit};
 use gridshell::design::Design;
 use gridshell::inspect::Sketch;
@@ -34,8 +33,8 @@ use gridshell::{Error, Result, io};
 use std::path::Path;
 
 /// The legend of a scale by itself, as SVG.
-pub(crate) fn legend_of(scale: &colour::Scale) -> String {
-    let mut drawing = Drawing::new([280.0, 172.0], Unit::Pixel, scale.title.to_owned());
+pub(crate) fn legend_of(scale: &Scale) -> String {
+    let mut drawing = Drawing::new([280.0, 188.0], Unit::Pixel, scale.title.clone());
     legend::colours(&mut drawing, scale, [6.0, 10.0], 268.0, 12.0);
     svg::encode(&drawing)
 }

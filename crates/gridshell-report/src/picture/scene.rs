@@ -1,11 +1,11 @@
 //! A grid as it is seen: panels, members and nodes from the farthest to the nearest.
 
-use super::colour::Colours;
 use super::drawing::{Drawing, Rgb};
 use super::frame::Frame;
 use super::label::Labels;
 use super::light::lit;
 use super::view::{Camera, View};
+use crate::colourings::{Colours, Element};
 use gridshell::design::Design;
 
 /// One thing to be drawn.
@@ -81,7 +81,7 @@ pub fn seen(design: &Design, camera: &Camera) -> (Vec<[f64; 3]>, Vec<Item>) {
 /// Draw a grid.
 pub fn draw(
     design: &Design,
-    colours: &Colours,
+    colours: Option<&Colours>,
     view: View,
     camera: &Camera,
     frame: &Frame,
@@ -93,13 +93,14 @@ pub fn draw(
     let (seen, items) = seen(design, camera);
     let places: Vec<[f64; 2]> = seen.iter().map(|&s| frame.place(s)).collect();
     let place = |v: u32| places[v as usize];
+    let colour = |element, k| colours.and_then(|c| c.of(element, k));
     let shaded = view != View::Plan;
     let supported = supported(design);
     for item in items {
         match item {
             Item::Panel(k) => {
                 let t = panels.nodes[k];
-                let plain = colours.of(colours.panels[k]).unwrap_or(PANEL);
+                let plain = colour(Element::Panels, k).unwrap_or(PANEL);
                 let at = schedule.nodes.xyz[t[0] as usize];
                 let rgb = if shaded { lit(plain, panels.normal[k], at, camera) } else { plain };
                 drawing.area(t.map(place).to_vec(), rgb);
@@ -107,35 +108,37 @@ pub fn draw(
             Item::Member(k) => {
                 let wide = members.boundary[k] || members.feature[k];
                 let width = if wide { WIDE * style.member } else { style.member };
-                let rgb = colours.of(colours.members[k]).unwrap_or(MEMBER);
+                let rgb = colour(Element::Members, k).unwrap_or(MEMBER);
                 drawing.line(members.ends[k].map(place).to_vec(), width, rgb);
             }
             Item::Node(v) => {
                 if supported[v] && style.support > 0.0 {
                     support(places[v], style.support, drawing);
                 }
-                mark(design, colours, v, places[v], style.node, drawing);
+                mark(design, colour(Element::Nodes, v), v, places[v], style.node, drawing);
             }
         }
     }
 }
 
-/// The mark of an irregular node: black for too few members, white for too many, or its colour.
+/// The mark of a node: its colour, or at an irregular one black for too few members and white for too many. Irregular ones
+/// have a rim.
 fn mark(
     design: &Design,
-    colours: &Colours,
+    colour: Option<Rgb>,
     v: usize,
     at: [f64; 2],
     radius: f64,
     drawing: &mut Drawing,
 ) {
     let nodes = &design.schedule.nodes;
-    if !nodes.is_irregular(v) {
-        return;
+    if nodes.is_irregular(v) {
+        let few = nodes.adjusted_degree[v] < gridshell::degree::REGULAR;
+        let plain = if few { INK } else { PAPER };
+        drawing.disc(at, radius, colour.unwrap_or(plain), INK);
+    } else if let Some(colour) = colour {
+        drawing.disc(at, radius, colour, colour);
     }
-    let few = nodes.adjusted_degree[v] < gridshell::degree::REGULAR;
-    let plain = if few { INK } else { PAPER };
-    drawing.disc(at, radius, colours.of(colours.nodes[v]).unwrap_or(plain), INK);
 }
 
 /// A triangle that stands below a supported node.

@@ -1,12 +1,12 @@
 //! Sheets to scale: views on paper of a standard size, with legend, figures, title and scale bar. Millimetres.
 
-use super::colour::{Coloring, Colours};
 use super::drawing::{Anchor, Drawing, Unit};
 use super::frame::{Extent, Frame};
 use super::label::{self, Labels};
 use super::scene::{self, INK, Style};
 use super::view::{Camera, View};
 use super::{glyphs, legend, small};
+use crate::colourings::{Colouring, Colours};
 use crate::measures::{self, Known};
 use gridshell::design::Design;
 
@@ -51,8 +51,8 @@ pub struct Wish<'a> {
     pub sheet: Sheet,
     /// Its size.
     pub paper: Paper,
-    /// What colours show.
-    pub coloring: Coloring,
+    /// What colours show; None for plain elements.
+    pub colouring: Option<&'static Colouring>,
     /// Whose numbers are written beside them.
     pub labels: &'a [Labels],
 }
@@ -127,16 +127,17 @@ pub fn sheet(design: &Design, wish: &Wish) -> Drawing {
     let room = [split - at[0] - PAD * f, inner[1] - (2.0 * PAD + FOOT) * f];
     let cells = cells(&views, at, room, f);
     let scale = 1000.0 / denominator(&views, &cells);
-    let colours = Colours::new(wish.coloring, design);
+    let colours = wish.colouring.map(|c| Colours::new(c, design));
+    let colours = colours.as_ref();
     let member = scale * design.schedule.figures.length.spread.mean;
     let mut style = Style::of(member, TYPE * f).beside(wish.labels);
-    if wish.coloring == Coloring::Degree {
+    if colours.is_some_and(Colours::on_nodes) {
         style.node *= COLOURED_NODES;
     }
     for ((view, camera, extent), cell) in views.iter().zip(&cells) {
         let frame = Frame::centred(extent, scale, cell.at, cell.room);
-        scene::draw(design, &colours, *view, camera, &frame, &style, &mut drawing);
-        label::draw(design, wish.labels, &colours, camera, &frame, TYPE * f, &mut drawing);
+        scene::draw(design, colours, *view, camera, &frame, &style, &mut drawing);
+        label::draw(design, wish.labels, colours, camera, &frame, TYPE * f, &mut drawing);
         if views.len() > 1 {
             let foot = cell.at[1] + 0.5 * (cell.room[1] + scale * extent.size()[1]);
             let below = [cell.at[0] + 0.5 * cell.room[0], foot + 3.0 * TYPE * f];
@@ -156,7 +157,7 @@ pub fn sheet(design: &Design, wish: &Wish) -> Drawing {
             TYPE * f,
         );
     }
-    column(design, wish, &colours, scale, [split, MARGIN * f], f, &mut drawing);
+    column(design, wish, colours, scale, [split, MARGIN * f], f, &mut drawing);
     drawing
 }
 
@@ -245,7 +246,7 @@ fn capital(text: &str) -> String {
 fn column(
     design: &Design,
     wish: &Wish,
-    colours: &Colours,
+    colours: Option<&Colours>,
     scale: f64,
     at: [f64; 2],
     f: f64,
@@ -254,10 +255,10 @@ fn column(
     let (left, width) = (at[0] + PAD * f, (COLUMN - 2.0 * PAD) * f);
     let mut y = at[1] + PAD * f;
     let size = TYPE * f;
-    if let Some(colours) = &colours.scale {
-        y = legend::colours(drawing, colours, [left, y], width, size) + 1.5 * LINE * f;
+    if let Some(colours) = colours {
+        y = legend::colours(drawing, &colours.scale, [left, y], width, size) + 1.5 * LINE * f;
     }
-    y = legend::marks(drawing, design, wish.coloring, [left, y], size, LINE * f) + LINE * f;
+    y = legend::marks(drawing, design, colours, [left, y], size, LINE * f) + LINE * f;
     heading(drawing, "Figures", [left, y], width, f);
     y += 1.4 * LINE * f;
     let known = Known::of(design);

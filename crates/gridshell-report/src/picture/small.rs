@@ -1,12 +1,12 @@
 //! A small picture of a grid without a sheet about it: its views below one another, and what the colours mean; supports are
 //! left out. Pixels.
 
-use super::colour::{Coloring, Colours};
 use super::drawing::{Drawing, Unit};
 use super::frame::Frame;
 use super::scene::{self, Style};
 use super::sheet::{COLOURED_NODES, Wish, seen};
 use super::{label, legend};
+use crate::colourings::Colours;
 use gridshell::design::Design;
 
 /// The greater side of a view, the room round it and the size of type.
@@ -23,26 +23,27 @@ pub fn picture(design: &Design, wish: &Wish, title: String) -> Drawing {
     let scale = SIDE / greatest;
     let heights: Vec<f64> = views.iter().map(|v| v.2.size()[1] * scale).collect();
     let widest = views.iter().map(|v| v.2.size()[0] * scale).fold(STRIP, f64::max);
-    let colours = Colours::new(wish.coloring, design);
-    let foot = if colours.scale.is_some() { 3.2 * TYPE } else { 0.0 };
+    let colours = wish.colouring.map(|c| Colours::new(c, design));
+    let colours = colours.as_ref();
+    let foot = if colours.is_some() { 3.2 * TYPE } else { 0.0 };
     let gaps = MARGIN * (views.len() + 1) as f64;
     let size = [widest + 2.0 * MARGIN, heights.iter().sum::<f64>() + gaps + foot];
     let mut drawing = Drawing::new(size.map(f64::ceil), Unit::Pixel, title);
     let member = scale * design.schedule.figures.length.spread.mean;
     let style = Style::of(member, TYPE);
     let mut style = Style { member: 1.6 * style.member, support: 0.0, ..style }.beside(wish.labels);
-    if wish.coloring == Coloring::Degree {
+    if colours.is_some_and(Colours::on_nodes) {
         style.node *= COLOURED_NODES;
     }
     let mut y = MARGIN;
     for ((view, camera, extent), height) in views.iter().zip(heights) {
         let frame = Frame::centred(extent, scale, [MARGIN, y], [widest, height]);
-        scene::draw(design, &colours, *view, camera, &frame, &style, &mut drawing);
-        label::draw(design, wish.labels, &colours, camera, &frame, TYPE, &mut drawing);
+        scene::draw(design, colours, *view, camera, &frame, &style, &mut drawing);
+        label::draw(design, wish.labels, colours, camera, &frame, TYPE, &mut drawing);
         y += height + MARGIN;
     }
-    if let Some(scale) = &colours.scale {
-        legend::strip(&mut drawing, scale, [MARGIN, y], STRIP, TYPE);
+    if let Some(colours) = colours {
+        legend::strip(&mut drawing, &colours.scale, [MARGIN, y], STRIP, TYPE);
     }
     drawing
 }

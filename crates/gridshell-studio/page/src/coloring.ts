@@ -1,8 +1,8 @@
 // What the grids are colored by, and the legend.
-import { el, figure } from "./dom";
+import { el } from "./dom";
 import type { Frame, Link } from "./link";
 import type { Scale } from "./messages";
-import { gradient } from "./palette";
+import { bands } from "./palette";
 import type { Store } from "./store";
 import type { Views } from "./views";
 
@@ -65,27 +65,23 @@ export class Coloring {
   }
 
   private explain(scale: Scale): void {
-    const { range, extent, whole } = scale;
-    const unit = scale.unit ? ` ${scale.unit}` : "";
-    const ends = whole
-      ? ["≤ 4", "5", "6", "7", "≥ 8"]
-      : [0, 0.5, 1].map((s) => figure(range[0] + s * (range[1] - range[0])) + unit);
-    const all = whole ? "" : `all: ${figure(extent[0])} to ${figure(extent[1])}${unit}`;
     this.legend.replaceChildren(
-      el("b", {}, [scale.label]),
-      el("div", { class: "bar", style: `background:${gradient(whole)}` }),
+      el("b", {}, [scale.title]),
+      el("div", { class: "bar", style: `background:${bands(scale)}` }),
       el(
         "div",
         { class: "ends" },
-        ends.map((e) => el("span", {}, [e])),
+        scale.labels.map((label) => el("span", {}, [label.text])),
       ),
-      all && el("small", {}, [all]),
-      el("div", { class: "odd" }, [
-        el("i", { class: "black" }),
-        "too few members",
-        el("i", { class: "white" }),
-        "too many",
-      ]),
+      scale.note && el("small", {}, [scale.note]),
+      scale.all_nodes
+        ? ""
+        : el("div", { class: "odd" }, [
+            el("i", { class: "black" }),
+            "too few members",
+            el("i", { class: "white" }),
+            "too many",
+          ]),
     );
     this.legend.hidden = false;
   }

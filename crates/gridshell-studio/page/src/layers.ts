@@ -20,7 +20,7 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import { type Frame, floats, wholes } from "./link";
-import { paint, type Theme } from "./palette";
+import { inks, type Theme } from "./palette";
 import { type Wire, wired } from "./wire";
 
 /** Members are lines of their own up to so many; more of them, and those that move, are edges of the panels. */
@@ -293,9 +293,9 @@ export class GridLayer {
     const scale = frame.scale;
     if (!scale || !this.frame) return;
     this.plain();
-    const values = floats(frame, "values");
-    const color = new Color();
-    const at = (k: number) => paint(values[k] ?? NaN, scale.range, scale.whole, color);
+    const steps = wholes(frame, "steps");
+    const ink = inks(scale);
+    const at = (k: number) => ink(steps[k]);
     if (scale.on === "members") {
       this.widen(this.width + 1.4);
       if (this.members.visible) this.colorMembers(at);
@@ -343,7 +343,9 @@ export class GridLayer {
       const colors = new Float32Array(3 * panels.length);
       for (let c = 0; c < panels.length; c += 3) {
         const member = number.get(key(panels[c + ((edge + 1) % 3)]!, panels[c + ((edge + 2) % 3)]!));
-        const color = at(member ?? -1).convertLinearToSRGB();
+        const color = at(member ?? -1)
+          .clone()
+          .convertLinearToSRGB();
         for (let corner = c; corner < c + 3; corner++) color.toArray(colors, 3 * corner);
       }
       put(this.panels.geometry, `edge${edge}`, colors, 3);

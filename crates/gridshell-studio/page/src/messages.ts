@@ -367,10 +367,6 @@ name: string,
  */
 label: string, 
 /**
- * Unit, or empty.
- */
-unit: string, 
-/**
  * One line of help.
  */
 help: string, };
@@ -782,26 +778,35 @@ export type Scale = {
  */
 by: string, 
 /**
- * For people.
+ * What is shown, with its unit.
  */
-label: string, 
+title: string, 
 /**
- * Unit, or empty.
- */
-unit: string, 
-/**
- * What has values: `members`, `panels` or `nodes`.
+ * What has colors: `members`, `panels` or `nodes`.
  */
 on: string, 
 /**
- * Values at the scale's ends.
+ * The colors of the steps, `#rrggbb`.
  */
-range: [number, number], 
+inks: Array<string>, 
 /**
- * Least and largest value there is.
+ * What stands where on the scale.
  */
-extent: [number, number], 
+labels: Array<Label>, 
 /**
- * Whether values are counts.
+ * What else to know, or empty.
  */
-whole: boolean, };
+note: string, 
+/**
+ * Whether every node has a color.
+ */
+all_nodes: boolean, };
+export type Label = { 
+/**
+ * Where, from 0 to 1.
+ */
+at: number, 
+/**
+ * What is there.
+ */
+text: string, };

@@ -1,29 +1,19 @@
-// Colors for values: an even scale for amounts, a diverging one for degrees, and what themes ask of the view.
+// Colors of scales, and what themes ask of the view.
 import { Color } from "three";
-
-/** Dark blue to yellow by even steps of lightness, readable without color vision. */
-const EVEN = ["#30246b", "#31528f", "#24788f", "#229a82", "#62b862", "#b8cd46", "#fbe04a"].map(
-  (c) => new Color(c),
-);
-/** Degrees 4 and less to 8 and more; 6 is neutral. */
-const DEGREES = ["#5b2a86", "#3b6fb5", "#c9ced6", "#e08a3c", "#a32638"].map((c) => new Color(c));
+import type { Scale } from "./messages";
 
 const UNKNOWN = new Color("#c9ced6");
 
-/** The color of a value between the ends of a scale. */
-export function paint(value: number, [low, high]: [number, number], whole: boolean, into: Color): Color {
-  if (!Number.isFinite(value)) return into.copy(UNKNOWN);
-  const stops = whole ? DEGREES : EVEN;
-  const share = Math.min(1, Math.max(0, (value - low) / (high - low)));
-  const at = share * (stops.length - 1);
-  const k = Math.min(stops.length - 2, Math.floor(at));
-  return into.lerpColors(stops[k]!, stops[k + 1]!, at - k);
+/** The color of each step, and one for what has none. */
+export function inks(scale: Scale): (step: number | undefined) => Color {
+  const colors = scale.inks.map((ink) => new Color(ink));
+  return (step) => colors[step ?? -1] ?? UNKNOWN;
 }
 
-/** The scale as a CSS gradient. */
-export function gradient(whole: boolean): string {
-  const stops = whole ? DEGREES : EVEN;
-  return `linear-gradient(to right, ${stops.map((c) => `#${c.getHexString()}`).join(", ")})`;
+/** The scale as a CSS gradient: a band for each step. */
+export function bands(scale: Scale): string {
+  const end = (k: number) => `${(100 * k) / scale.inks.length}%`;
+  return `linear-gradient(to right, ${scale.inks.map((ink, k) => `${ink} ${end(k)} ${end(k + 1)}`).join(", ")})`;
 }
 
 export interface Theme {

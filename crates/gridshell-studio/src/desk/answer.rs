@@ -62,7 +62,7 @@ impl Desk {
             Request::Look { run, stage } => self.look(run, stage.as_deref()),
             Request::Color { run, by } => {
                 let laid = self.laid(run)?;
-                let frame = color::frame(run, &laid.grid(), &laid.opened.sketch, &by);
+                let frame = color::frame(&laid, &by);
                 let frame = frame.ok_or_else(|| Error::Option(format!("no coloring `{by}`")))?;
                 Ok(vec![Outgoing::Frame(frame)])
             }
