@@ -292,6 +292,15 @@ fn groups(s: &Subject) -> Vec<f64> {
     groups_within(&s.lengths(), s.length_tolerance).into_iter().map(f64::from).collect()
 }
 
+/// The steps of a scale.
+struct Steps {
+    /// The step of a value.
+    place: Box<dyn Fn(f64) -> u8>,
+    inks: Vec<Rgb>,
+    /// What stands where, from 0 to 1.
+    labels: Vec<(f64, String)>,
+}
+
 impl Colouring {
     /// The value of each element that is coloured; NaN where it has none.
     pub fn values(&self, subject: &Subject) -> Vec<f64> {
@@ -302,43 +311,46 @@ impl Colouring {
     pub fn colours(&self, subject: &Subject) -> Colours {
         let values = self.values(subject);
         let known: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
-        let (place, inks, labels): (Box<dyn Fn(f64) -> u8>, Vec<Rgb>, Vec<(f64, String)>) =
-            match self.rule {
-                Rule::AboutLength => {
-                    let wanted = subject.edge_length;
-                    let half = most_within(known.iter().map(|l| (l - wanted).abs()).collect())
-                        .clamp(LEAST_SPREAD * wanted, MOST_SPREAD * wanted);
-                    self.measured([wanted - half, wanted + half], [" or less", " or more"])
-                }
-                Rule::FromZero { least } => {
-                    self.measured([0.0, most_within(known.clone()).max(least)], ["", " or more"])
-                }
-                Rule::ToOne { most } => {
-                    let off = most_within(known.iter().map(|q| 1.0 - q).collect());
-                    self.measured([(1.0 - off).min(most), 1.0], [" or less", ""])
-                }
-                Rule::Counts { first } => {
-                    let last = self.ramp.len() - 1;
-                    let label = |k: usize| {
-                        let beyond = match k {
-                            0 => " or fewer",
-                            k if k == last => " or more",
-                            _ => "",
-                        };
-                        (in_middle(k, last + 1), format!("{}{beyond}", first + k as i32))
+        let Steps { place, inks, labels } = match self.rule {
+            Rule::AboutLength => {
+                let wanted = subject.edge_length;
+                let half = most_within(known.iter().map(|l| (l - wanted).abs()).collect())
+                    .clamp(LEAST_SPREAD * wanted, MOST_SPREAD * wanted);
+                self.measured([wanted - half, wanted + half], [" or less", " or more"])
+            }
+            Rule::FromZero { least } => {
+                self.measured([0.0, most_within(known.clone()).max(least)], ["", " or more"])
+            }
+            Rule::ToOne { most } => {
+                let off = most_within(known.iter().map(|q| 1.0 - q).collect());
+                self.measured([(1.0 - off).min(most), 1.0], [" or less", ""])
+            }
+            Rule::Counts { first } => {
+                let last = self.ramp.len() - 1;
+                let label = |k: usize| {
+                    let beyond = match k {
+                        0 => " or fewer",
+                        k if k == last => " or more",
+                        _ => "",
                     };
-                    let place = move |x: f64| (x - f64::from(first)).clamp(0.0, last as f64) as u8;
-                    (Box::new(place), self.ramp.to_vec(), (0..=last).map(label).collect())
+                    (in_middle(k, last + 1), format!("{}{beyond}", first + k as i32))
+                };
+                let place = move |x: f64| (x - f64::from(first)).clamp(0.0, last as f64) as u8;
+                Steps {
+                    place: Box::new(place),
+                    inks: self.ramp.to_vec(),
+                    labels: (0..=last).map(label).collect(),
                 }
-                Rule::Groups => {
-                    let count = known.iter().copied().fold(0.0, f64::max) as usize + 1;
-                    let inks = &self.ramp[..count.min(self.ramp.len())];
-                    let labels = (0..inks.len()).map(|k| (in_middle(k, inks.len()), k.to_string()));
-                    let colours = inks.len();
-                    let place = move |x: f64| (x as usize % colours) as u8;
-                    (Box::new(place), inks.to_vec(), labels.collect())
-                }
-            };
+            }
+            Rule::Groups => {
+                let count = known.iter().copied().fold(0.0, f64::max) as usize + 1;
+                let inks = &self.ramp[..count.min(self.ramp.len())];
+                let labels = (0..inks.len()).map(|k| (in_middle(k, inks.len()), k.to_string()));
+                let colours = inks.len();
+                let place = move |x: f64| (x as usize % colours) as u8;
+                Steps { place: Box::new(place), inks: inks.to_vec(), labels: labels.collect() }
+            }
+        };
         let steps: Vec<Option<u8>> =
             values.iter().map(|&x| x.is_finite().then(|| place(x))).collect();
         let mut counts = vec![0; inks.len()];
@@ -361,12 +373,8 @@ impl Colouring {
         }
     }
 
-    /// Where values lie, the colours and the labels of a scale between these values.
-    fn measured(
-        &self,
-        [low, high]: [f64; 2],
-        beyond: [&str; 2],
-    ) -> (Box<dyn Fn(f64) -> u8>, Vec<Rgb>, Vec<(f64, String)>) {
+    /// The steps of a scale between these values.
+    fn measured(&self, [low, high]: [f64; 2], beyond: [&str; 2]) -> Steps {
         let digits = decimals((high - low) / 2.0);
         let labels = [
             (0.0, format!("{low:.digits$}{}", beyond[0])),
@@ -374,7 +382,7 @@ impl Colouring {
             (1.0, format!("{high:.digits$}{}", beyond[1])),
         ];
         let place = move |x: f64| stepped((x - low) / (high - low));
-        (Box::new(place), blended(self.ramp), labels.to_vec())
+        Steps { place: Box::new(place), inks: blended(self.ramp), labels: labels.to_vec() }
     }
 
     /// What the scale does not tell of the values.

@@ -24,11 +24,11 @@ struct Data {
     /// Adjusted degrees less six.
     excess: String,
     member_length: f64,
-    colourings: BTreeMap<&'static str, Steps>,
+    colourings: BTreeMap<&'static str, Layer>,
 }
 
 #[derive(Serialize)]
-struct Steps {
+struct Layer {
     inks: Vec<String>,
     /// `members`, `nodes` or `panels`.
     on: &'static str,
@@ -82,12 +82,12 @@ fn data(design: &Design, colored: &[Colored]) -> Data {
         wide: packed(wide),
         excess: packed(excess),
         member_length: schedule.figures.length.spread.mean,
-        colourings: colored.iter().map(|c| (c.colouring.key, steps(c))).collect(),
+        colourings: colored.iter().map(|c| (c.colouring.key, layer(c))).collect(),
     }
 }
 
-fn steps(Colored { colouring, colours }: &Colored) -> Steps {
-    Steps {
+fn layer(Colored { colouring, colours }: &Colored) -> Layer {
+    Layer {
         inks: colours.scale.hexes(),
         on: colouring.on.name(),
         steps: packed(colours.steps.iter().map(|s| s.unwrap_or(PLAIN))),

@@ -402,9 +402,10 @@ fn check_knots(degree: usize, knots: &[f64], count: usize) -> Result<()> {
     if let Some(k) = knots.iter().find(|k| k.abs() > LARGEST) {
         return fail(format!("its knot {k:e} is larger than {LARGEST:e}"));
     }
-    let near = |w: &&[f64]| w[0] < w[1] && w[1] - w[0] < 1.0 / LARGEST;
-    if let Some(w) = knots.windows(2).find(near) {
-        return fail(format!("its knots {:e} and {:e} are neither equal nor apart", w[0], w[1]));
+    for (&a, &b) in knots.iter().zip(&knots[1..]) {
+        if a < b && b - a < 1.0 / LARGEST {
+            return fail(format!("its knots {a:e} and {b:e} are neither equal nor apart"));
+        }
     }
     if knots[degree] >= knots[count] {
         return fail("the knots leave no domain".into());
