@@ -4,6 +4,7 @@
 use gridshell::design::Design;
 use gridshell::schedule::Figures;
 use gridshell::stages::measure::Quality;
+use gridshell::structure::Structure;
 
 /// A measure of grids.
 pub struct Measure {
@@ -25,15 +26,15 @@ pub struct Measure {
     pub is_fault: bool,
     value: fn(&Known) -> Option<f64>,
     floor: Option<fn(&Known) -> f64>,
-    within: Option<fn(&Figures) -> String>,
+    within: Option<fn(&Known) -> Option<String>>,
 }
 
 /// What lengths of a group differ by at most.
-const BY_LENGTH: Option<fn(&Figures) -> String> =
-    Some(|f| format!("within {:.1} mm", 1e3 * f.length_tolerance));
+const BY_LENGTH: Option<fn(&Known) -> Option<String>> =
+    Some(|k| Some(format!("within {:.1} mm", 1e3 * k.figures?.length_tolerance)));
 /// What angles at alike nodes differ by at most.
-const BY_ANGLE: Option<fn(&Figures) -> String> =
-    Some(|f| format!("within {} deg", f.angle_tolerance_deg));
+const BY_ANGLE: Option<fn(&Known) -> Option<String>> =
+    Some(|k| Some(format!("within {} deg", k.figures?.angle_tolerance_deg)));
 
 /// Headings that measures stand under.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +75,8 @@ pub struct Known<'a> {
     pub figures: Option<&'a Figures>,
     /// What lengths are measured against.
     pub edge_length: f64,
+    /// What members and panels are made of; without it they have no mass.
+    pub structure: Option<&'a Structure>,
 }
 
 impl<'a> Known<'a> {
@@ -83,6 +86,7 @@ impl<'a> Known<'a> {
             quality: &design.quality,
             figures: Some(&design.schedule.figures),
             edge_length: design.edge_length,
+            structure: Some(&design.structure),
         }
     }
 }
@@ -111,7 +115,7 @@ impl Measure {
         self.floor.map(|floor| self.written(floor(known)))
     }
 
-    /// Its value with unit, floor, and within what it counts as alike.
+    /// Its value with unit, floor, and what it holds for: a tolerance, or what was assumed.
     pub fn full_text(&self, known: &Known) -> Option<String> {
         let mut text = self.text(known)?;
         if !self.unit.is_empty() {
@@ -121,9 +125,9 @@ impl Measure {
         if let Some(floor) = self.floor(known) {
             text += &format!(" (floor {floor})");
         }
-        if let (Some(within), Some(figures)) = (self.within, known.figures) {
+        if let Some(within) = self.within.and_then(|within| within(known)) {
             text += " ";
-            text += &within(figures);
+            text += &within;
         }
         Some(text)
     }
@@ -241,6 +245,32 @@ pub const ALL: &[Measure] = &[
         floor: None,
         is_fault: false,
         within: None,
+    },
+    Measure {
+        key: "member_mass",
+        group: Group::Size,
+        name: "mass of members",
+        unit: "kg",
+        digits: 0,
+        better: Better::Neither,
+        meaning: "All members in the section and material that files are written with, from node to node; joints come on top.",
+        value: |k| Some(k.structure?.member_mass(k.figures?.length.total)),
+        floor: None,
+        is_fault: false,
+        within: Some(|k| Some(format!("({})", k.structure?.section.name))),
+    },
+    Measure {
+        key: "pane_mass",
+        group: Group::Size,
+        name: "mass of panes",
+        unit: "kg",
+        digits: 0,
+        better: Better::Neither,
+        meaning: "All panels as glass of the thickness that files are written with, up to the axes of the members.",
+        value: |k| Some(k.structure?.pane_mass(k.figures?.panel.total_area)),
+        floor: None,
+        is_fault: false,
+        within: Some(|k| Some(format!("({} mm)", k.structure?.pane_mm))),
     },
     Measure {
         key: "fluency",
@@ -624,7 +654,7 @@ mod tests {
         let panels: Vec<[u32; 3]> = (0..6).map(|k| [0, 1 + k, 1 + (k + 1) % 6]).collect();
         let (grid, surface) = Grid::alone("hexagon", points, &panels).unwrap();
         let quality = measure(&grid, &surface, 1.0, &recipe::Measure::default());
-        let known = Known { quality: &quality, figures: None, edge_length: 1.0 };
+        let known = Known { quality: &quality, figures: None, edge_length: 1.0, structure: None };
         let fluency = Measure::named("fluency");
         assert_eq!(fluency.full_text(&known).as_deref(), Some("infinite"));
         assert_eq!(fluency.rank(&known), Some(f64::NEG_INFINITY));

@@ -29,7 +29,7 @@ pub fn told(summary: RunSummary, laid: &Laid, now: &Now) -> RunInfo {
 
 fn measures(quality: &Quality, edge_length: f64) -> Vec<Measure> {
     // Schedules would take too long at every edit.
-    let known = Known { quality, figures: None, edge_length };
+    let known = Known { quality, figures: None, edge_length, structure: None };
     let row = |m: &measures::Measure| {
         Some(Measure {
             key: m.key.into(),

@@ -18,7 +18,7 @@ pub(super) fn encode(grid: &GridFile, job: &Job) -> Vec<u8> {
     let (section, material) = (&grid.structure.section, &grid.structure.material);
     let Properties { area, iy, iz, torsion } = section.shape.properties();
     let (youngs, shear) = (material.youngs_mpa * 1e6, material.shear_mpa * 1e6);
-    let weight = area * material.density * GRAVITY;
+    let weight = grid.structure.member_mass(1.0) * GRAVITY;
 
     let mut out = format!("# {}\n", grid.headline());
     let _ = writeln!(out, "# N, m. Section {}, material {}.", section.name, material.name);
